@@ -1,0 +1,52 @@
+// An OpenCL device with its context and one in-order profiling queue. OpenCL headers stay in host/opencl.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace understory {
+
+struct DeviceInfo {
+  int index = 0;              // over all platforms, as `--device` counts
+  std::string platform, name, type, version;  // type: cpu, gpu, accelerator
+  std::string driver;
+  int compute_units = 0;
+  std::uint64_t memory_mib = 0, max_allocation_mib = 0;
+  int vector_width = 1;       // preferred float lanes: the W that kernels are built with (1 on a GPU)
+  bool atomic64 = false;      // cl_khr_int64_extended_atomics (and base)
+};
+
+/// Every device of every platform, in a stable order. Empty when there is none. Never throws for want of a device.
+std::vector<DeviceInfo> list_devices();
+
+class Device {
+ public:
+  /// `selector`: empty, an index, "cpu", "gpu", or part of a platform or device name; empty falls back to the
+  /// variable UNDERSTORY_DEVICE, then the first CPU, then the first device.
+  /// Throws Error(no_device) with the list of what there is, or how to install PoCL when there is nothing.
+  explicit Device(const std::string& selector = "");
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceInfo& info() const;
+  void finish();
+  /// Waits for all launches; milliseconds of device time per pass name since the last call, summed over launches.
+  std::map<std::string, double> take_pass_times();
+  /// Names of the programs built so far on this device (stems of .cl files), sorted.
+  std::vector<std::string> programs_built() const;
+  /// Bytes of live buffers, and the most there ever were.
+  std::uint64_t buffer_bytes() const;
+  std::uint64_t peak_buffer_bytes() const;
+
+  struct Impl;  // for host/opencl only
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace understory
