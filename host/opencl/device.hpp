@@ -10,13 +10,13 @@
 namespace understory {
 
 struct DeviceInfo {
-  int index = 0;              // over all platforms, as `--device` counts
+  int index = 0;                              // over all platforms, as `--device` counts
   std::string platform, name, type, version;  // type: cpu, gpu, accelerator
   std::string driver;
   int compute_units = 0;
   std::uint64_t memory_mib = 0, max_allocation_mib = 0;
-  int vector_width = 1;       // preferred float lanes: the W that kernels are built with (1 on a GPU)
-  bool atomic64 = false;      // cl_khr_int64_extended_atomics (and base)
+  int vector_width = 1;   // preferred float lanes: the W that kernels are built with (1 on a GPU)
+  bool atomic64 = false;  // cl_khr_int64_extended_atomics (and base)
 };
 
 /// Every device of every platform, in a stable order. Empty when there is none. Never throws for want of a device.

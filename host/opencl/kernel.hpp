@@ -37,10 +37,8 @@ class Kernel {
     set_buffer(index, buffer.raw());
   }
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  void set(unsigned index, const T& value) {
-    set_value(index, &value, sizeof(T));
-  }
+  requires std::is_trivially_copyable_v<T>
+  void set(unsigned index, const T& value) { set_value(index, &value, sizeof(T)); }
   void set_buffer(unsigned index, const RawBuffer& buffer);
   void set_value(unsigned index, const void* value, std::size_t bytes);
   void enqueue(std::size_t items, std::size_t local, unsigned arguments);

@@ -1,0 +1,32 @@
+// What a Device holds. For host/opencl only.
+#pragma once
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/opencl/device.hpp"
+#include "host/opencl/opencl.hpp"
+
+namespace understory {
+
+struct Device::Impl {
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;  // in order, profiling
+
+  std::map<std::string, cl::Program> programs;              // key: stem and options
+  std::vector<std::pair<std::string, cl::Event>> launches;  // pass name and event, not yet summed
+  std::map<std::string, double> pass_ms;                    // summed so far
+  std::uint64_t buffer_bytes = 0, peak_buffer_bytes = 0;
+
+  /// Builds `kernels/<stem>.cl` or finds it built. `options` as given to Kernel.
+  cl::Program& program(const std::string& stem, const std::string& options);
+  /// All options a program of this device is built with.
+  std::string build_options(const std::string& options) const;
+  /// Waits for the launches noted so far and adds up their times.
+  void collect_times();
+};
+
+}  // namespace understory

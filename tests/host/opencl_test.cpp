@@ -1,0 +1,196 @@
+// Devices, buffers and kernels: results, limits, and what the errors say.
+#include "host/opencl/buffer.hpp"
+#include "host/opencl/device.hpp"
+#include "host/opencl/kernel.hpp"
+#include "kernels/embedded.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr std::size_t odd_count = 1003;  // no multiple of any group size
+
+std::vector<float> ramp(std::size_t count) {
+  std::vector<float> values(count);
+  std::iota(values.begin(), values.end(), 1.0f);
+  return values;
+}
+
+/// Kind and text of the Error that `action` throws.
+std::pair<ErrorKind, std::string> error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return {error.kind(), error.what()};
+  }
+  ADD_FAILURE() << "no Error was thrown";
+  return {ErrorKind::unexpected, ""};
+}
+
+TEST(Devices, AreListedInOrderWithTheirLimits) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  ASSERT_FALSE(devices.empty()) << "the tests need an OpenCL device; PoCL is enough";
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_FALSE(devices[i].name.empty());
+    EXPECT_GT(devices[i].compute_units, 0);
+    EXPECT_GE(devices[i].memory_mib, devices[i].max_allocation_mib);
+    EXPECT_EQ(16 % devices[i].vector_width, 0);
+    EXPECT_TRUE(devices[i].vector_width == 1 || devices[i].type == "cpu");
+  }
+}
+
+TEST(Devices, AreChosenByIndexTypeOrPartOfName) {
+  const DeviceInfo first = list_devices().at(0);
+  EXPECT_EQ(Device("0").info().name, first.name);
+  EXPECT_EQ(Device(first.type).info().type, first.type);
+  EXPECT_EQ(Device(first.name.substr(1, 6)).info().name, first.name);
+}
+
+TEST(Devices, VariableChoosesUnlessTheCallDoes) {
+  setenv("UNDERSTORY_DEVICE", "no such device", 1);
+  const auto [kind, text] = error_of([] { Device device; });
+  EXPECT_NO_THROW(Device("0"));
+  unsetenv("UNDERSTORY_DEVICE");
+  EXPECT_EQ(kind, ErrorKind::no_device);
+  EXPECT_THAT(text, HasSubstr("no such device"));
+}
+
+TEST(Devices, AnUnknownOneIsAnsweredWithTheList) {
+  const auto [kind, text] = error_of([] { Device device("99"); });
+  EXPECT_EQ(kind, ErrorKind::no_device);
+  EXPECT_THAT(text, AllOf(HasSubstr("'99'"), HasSubstr(list_devices().at(0).name)));
+}
+
+TEST(DevicesDeathTest, DivisionByZeroOnTheHostStillTraps) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const auto divide = [] {
+    list_devices();
+    volatile int zero = 0;
+    std::exit(5 / zero);
+  };
+  EXPECT_EXIT(divide(), testing::KilledBySignal(SIGFPE), "");
+}
+
+TEST(Buffers, ReturnWhatWasWritten) {
+  Device device;
+  const std::vector<float> values = ramp(odd_count);
+  const Buffer<float> buffer(device, std::span<const float>(values), "test values");
+  EXPECT_EQ(buffer.read(), values);
+}
+
+TEST(Buffers, AreCounted) {
+  Device device;
+  {
+    Buffer<float> first(device, 100, "first");
+    Buffer<float> second = std::move(first);
+    EXPECT_EQ(device.buffer_bytes(), 400u);
+    second = Buffer<float>(device, 10, "third");
+  }
+  EXPECT_EQ(device.buffer_bytes(), 0u);
+  EXPECT_EQ(device.peak_buffer_bytes(), 440u);
+}
+
+TEST(Buffers, TooLargeOnesNameUseAndLimits) {
+  Device device;
+  const std::size_t count = (device.info().max_allocation_mib + 2) << 20;
+  const auto [kind, text] = error_of([&] { Buffer<char>(device, count, "rest vertices"); });
+  EXPECT_EQ(kind, ErrorKind::invalid_input);
+  EXPECT_THAT(text, AllOf(HasSubstr("rest vertices"), HasSubstr(std::to_string(count >> 20) + " MiB"),
+                          HasSubstr(std::to_string(device.info().max_allocation_mib) + " MiB")));
+}
+
+TEST(Buffers, RefuseRangesPastTheirEnd) {
+  Device device;
+  Buffer<float> buffer(device, 3, "three");
+  EXPECT_THROW(buffer.write(std::vector<float>(4)), Error);
+  EXPECT_NO_THROW(Buffer<float>(device, 0, "nothing").write(std::span<const float>()));
+}
+
+class CopyKernel : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(CopyKernel, CopiesEveryElementAndNothingBeyond) {
+  Device device;
+  Kernel copy(device, "roofline", "copy_plane", "copy");
+  const std::vector<float> values = ramp(2 * odd_count);
+  Buffer<float> in(device, std::span<const float>(values), "in"), out(device, values.size(), "out");
+  out.write(std::vector<float>(values.size(), -1));
+  copy.launch(odd_count, GetParam(), in, out, static_cast<unsigned>(odd_count));
+  std::vector<float> expected(values.size(), -1);
+  std::copy_n(values.begin(), odd_count, expected.begin());
+  EXPECT_EQ(out.read(), expected);
+}
+INSTANTIATE_TEST_SUITE_P(LocalSizes, CopyKernel, testing::Values(0, 1, 7, 64, 1024, 1 << 20));
+
+TEST(Kernels, SumTheirTimesPerPass) {
+  Device device;
+  Kernel copy(device, "roofline", "copy_plane", "copy"), also(device, "roofline", "copy_plane", "other");
+  Buffer<float> in(device, std::span<const float>(ramp(odd_count)), "in"), out(device, odd_count, "out");
+  EXPECT_TRUE(device.take_pass_times().empty());
+  for (int i = 0; i < 5000; ++i) copy.launch(odd_count, 64, in, out, static_cast<unsigned>(odd_count));
+  also.launch(odd_count, 64, in, out, static_cast<unsigned>(odd_count));
+  const std::map<std::string, double> times = device.take_pass_times();
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_GT(times.at("copy"), times.at("other"));
+  EXPECT_TRUE(device.take_pass_times().empty());
+  EXPECT_EQ(device.programs_built(), std::vector<std::string>{"roofline"});
+}
+
+TEST(Kernels, CheckTheirArguments) {
+  Device device;
+  Kernel copy(device, "roofline", "copy_plane", "copy");
+  Buffer<float> plane(device, 4, "plane");
+  const auto text_of = [&](auto... arguments) { return error_of([&] { copy.launch(4, 64, arguments...); }).second; };
+  EXPECT_THAT(error_of([&] { copy.launch(4, 64, plane, plane); }).second, HasSubstr("takes 3 arguments, 2"));
+  EXPECT_THAT(error_of([&] { copy.launch(4, 64, plane, plane, 4u, 4u); }).second, HasSubstr("takes 3 arguments"));
+  EXPECT_THAT(error_of([&] { copy.launch(4, 64, plane, plane, 4.0); }).second,
+              AllOf(HasSubstr("copy_plane"), HasSubstr("uint items"), HasSubstr("8 bytes")));
+  EXPECT_THAT(error_of([&] { copy.launch(4, 64, plane, plane, plane); }).second, HasSubstr("wants a value"));
+  EXPECT_THAT(text_of(1.0f), HasSubstr("wants a buffer"));
+}
+
+TEST(Kernels, ThatDoNotBuildShowFileDeviceOptionsAndLog) {
+  Device device;
+  const auto [kind, text] =
+      error_of([&] { Kernel(device, "roofline", "copy_plane", "copy", "-DFP_CONTRACT -Dglobal=nonsense"); });
+  EXPECT_EQ(kind, ErrorKind::unexpected);
+  EXPECT_THAT(text, AllOf(HasSubstr("kernels/roofline.cl:"), HasSubstr(device.info().name),
+                          HasSubstr("-Dglobal=nonsense"), HasSubstr("nonsense")));
+}
+
+TEST(Kernels, ThatDoNotExistAreNamed) {
+  Device device;
+  EXPECT_THAT(error_of([&] { Kernel(device, "roofline", "no_kernel", "x"); }).second, HasSubstr("no_kernel"));
+  EXPECT_THAT(error_of([&] { Kernel(device, "no_file", "x", "x"); }).second,
+              AllOf(HasSubstr("no_file.cl"), HasSubstr("roofline.cl")));
+}
+
+TEST(Kernels, OptionsOfTheCallOverrideTheVectorWidth) {
+  Device device;
+  EXPECT_NO_THROW(Kernel(device, "roofline", "copy_plane", "copy", "-DW=1"));
+}
+
+TEST(EmbeddedSources, PasteEachIncludeOnceUnderItsOwnName) {
+  for (const std::string& program : embedded_programs()) {
+    const std::string text = expanded_source(program);
+    EXPECT_THAT(text, HasSubstr("#line 1 \"kernels/" + program + ".cl\""));
+    EXPECT_EQ(text.find("#include \""), std::string::npos) << program;
+    const std::string records = "#line 1 \"kernels/shared/records.h\"";
+    EXPECT_EQ(text.find(records), text.rfind(records)) << program;
+  }
+}
+
+}  // namespace
+}  // namespace understory
