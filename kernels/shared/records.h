@@ -34,11 +34,11 @@ typedef struct {
 } PosedBlock;
 
 /// Up to 256 consecutive triangles of one owner. Triangle ids are chunk * 256 + lane.
-/// Mesh: indices `first_index` + 3 * lane into the index buffer, plus `first_vertex`.
+/// Mesh: entry `first_index` + lane of the three index planes, plus `first_vertex`.
 /// Grass: vertices first_vertex + lane, + 256, + 512; `first_blade` + lane is the blade.
 typedef struct {
   record_uint first_vertex;
-  record_uint first_index;   // mesh: in indices; grass: the first blade
+  record_uint first_index;   // mesh: in triangles of the index planes; grass: the first blade
   record_uint count;         // triangles, 1..256
   record_uint owner;         // row of the owner table
 } TriangleChunk;             // 16 bytes

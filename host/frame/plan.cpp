@@ -1,0 +1,96 @@
+#include "host/frame/plan.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+/// What the scene holds, as far as passes care.
+struct Contents {
+  bool meshes = false, grass = false, crowns = false, bodies_beside_crowns = false, occluders = false;
+  bool ground_cover = false, dome = true;
+};
+
+Contents contents_of(const World& world) {
+  Contents contents;
+  contents.meshes = !world.instances.empty();
+  contents.grass = std::any_of(world.grass.begin(), world.grass.end(), [](const auto& field) { return field.size() > 0; });
+  contents.crowns = std::any_of(world.owners.begin(), world.owners.end(), [](const Owner& owner) { return owner.crown >= 0; });
+  contents.bodies_beside_crowns = world.instances.size() > 1 || contents.grass;
+  contents.occluders = !world.occluder_spheres.empty();
+  contents.ground_cover = world.ground_cover.columns > 0 && world.terrain != nullptr;
+  contents.dome = world.scene.sky == Sky::dome;
+  return contents;
+}
+
+void require_known(const char* key, const std::string& name, std::initializer_list<const char*> allowed) {
+  if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) return;
+  std::string message = std::string("methods.") + key + ": there is no method '" + name + "'; allowed:";
+  for (const char* method : allowed) message += std::string(" ") + method;
+  throw Error(ErrorKind::invalid_input, message);
+}
+
+void check_names(const Methods& methods) {
+  require_known("tree", methods.tree, {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"});
+  require_known("grass", methods.grass, {"grass-height", "ambient", "none"});
+  const auto solid_angles = {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
+  require_known("crowns", methods.crowns, solid_angles);
+  require_known("occluders", methods.occluders, solid_angles);
+}
+
+void plan_geometry(const Contents& contents, Plan& plan) {
+  if (contents.meshes) plan.passes.push_back({"pose_mesh", "pose_mesh", "plants, occluders or terrain"});
+  if (contents.grass) plan.passes.push_back({"pose_grass", "pose_grass", "grass"});
+  plan.passes.push_back({"clear_visible", "rasterise", "every frame"});
+  if (contents.meshes) plan.passes.push_back({"cull_mesh", "cull_triangles", "plants, occluders or terrain"});
+  if (contents.grass) plan.passes.push_back({"cull_grass", "cull_triangles", "grass"});
+  if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", "plants, occluders or terrain"});
+  if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass"});
+  plan.passes.push_back({"resolve", "resolve", "every frame"});
+}
+
+void plan_visibility(const Contents& contents, const Methods& methods, Plan& plan) {
+  const bool tree = contents.crowns && methods.tree != "none";
+  const bool grass = contents.grass && methods.grass != "none";
+  if ((tree && methods.tree == "ambient") || (grass && methods.grass == "ambient") || contents.ground_cover)
+    plan.passes.push_back({"ambient", "ambient", contents.ground_cover ? "ground under grass" : "asked for"});
+  if (tree && methods.tree != "ambient") {
+    std::string program = methods.tree;
+    std::replace(program.begin(), program.end(), '-', '_');
+    plan.passes.push_back({methods.tree, program, "plants with a crown"});
+  }
+  if (grass && methods.grass == "grass-height") plan.passes.push_back({"grass-height", "grass_height", "grass"});
+  if (contents.dome) plan.passes.push_back({"open-dome", "open_dome", "sky: dome"});
+  const std::string crowns = contents.crowns && contents.bodies_beside_crowns ? methods.crowns : "none";
+  const std::string occluders = contents.occluders ? methods.occluders : "none";
+  if (crowns != "none")
+    plan.passes.push_back({crowns, "solid_angle", crowns == occluders ? "crowns and moving occluders" : "crowns"});
+  if (occluders != "none" && occluders != crowns) plan.passes.push_back({occluders, "solid_angle", "moving occluders"});
+  plan.passes.push_back({"combine", "combine", "every frame"});
+}
+
+}  // namespace
+
+bool Plan::has(const std::string& pass_name) const {
+  return std::any_of(passes.begin(), passes.end(), [&](const PlannedPass& pass) { return pass.name == pass_name; });
+}
+
+Plan make_plan(const World& world, const Methods& methods) {
+  check_names(methods);
+  Plan plan;
+  plan_geometry(contents_of(world), plan);
+  plan_visibility(contents_of(world), methods, plan);
+  return plan;
+}
+
+Plan make_visibility_plan(const World* world, const Methods& methods) {
+  check_names(methods);
+  Plan plan;
+  plan_visibility(world ? contents_of(*world) : Contents{}, methods, plan);
+  return plan;
+}
+
+}  // namespace understory

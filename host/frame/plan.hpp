@@ -1,0 +1,27 @@
+// Which passes a scene needs, and why. Nothing else is built, allocated or run.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sim/world.hpp"
+
+namespace understory {
+
+struct PlannedPass {
+  std::string name;      // as in timings and run.json: pose_mesh, rasterise_grass, sphere-cap, combine, ...
+  std::string program;   // stem of its kernel file
+  std::string because;   // one phrase for a person
+};
+
+struct Plan {
+  std::vector<PlannedPass> passes;  // in order of execution
+  bool has(const std::string& pass_name) const;
+};
+
+/// The plan of a whole frame. Throws Error(invalid_input) for a method name that does not exist.
+Plan make_plan(const World& world, const Methods& methods);
+
+/// The plan of the visibility passes alone, for planes rendered elsewhere; `world` may be null (open dome only).
+Plan make_visibility_plan(const World* world, const Methods& methods);
+
+}  // namespace understory

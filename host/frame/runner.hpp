@@ -1,0 +1,39 @@
+// Runs the plan of a scene on a device, frame by frame. A frame depends on (world, methods, time) and nothing else.
+#pragma once
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "host/frame/plan.hpp"
+#include "host/opencl/device.hpp"
+#include "sim/frame.hpp"
+#include "sim/world.hpp"
+
+namespace understory {
+
+class FrameRunner {
+ public:
+  /// Uploads what does not change with time. `device` and `world` must outlive the runner.
+  FrameRunner(Device& device, const World& world);
+  ~FrameRunner();
+
+  /// Changes the visibility methods (world.scene.methods at first); programs of new methods are built, of old ones dropped.
+  void choose(const Methods& methods);
+  const Plan& plan() const;
+
+  /// Poses, rasterises, resolves and shades one frame at world.scene.image size. `pixel_offset` in [-0.5, 0.5] shifts the
+  /// sample inside every pixel (supersampling).
+  Frame render(int index, double time, glm::dvec2 pixel_offset = glm::dvec2(0));
+  /// The triangles of the last rendered frame.
+  PosedGeometry posed_geometry() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Visibility passes on planes rendered elsewhere: fills `terms`, `visibility` and flags in `validity`.
+/// frame.owner indexes world->owners (all 0: each fragment inside a crown's sphere belongs to the nearest crown).
+/// `world` null: open-dome factor only.
+void shade_planes(Device& device, const World* world, const Methods& methods, double time, Frame& frame);
+
+}  // namespace understory

@@ -1,0 +1,34 @@
+// kernels/cull_triangles.cl and kernels/rasterise.cl: posed triangles into the visibility buffer.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "host/opencl/kernel.hpp"
+#include "host/passes/geometry.hpp"
+
+namespace understory {
+
+/// Per pixel the nearest triangle; see kernels/shared/visibility_buffer.h for the two layouts.
+struct VisibilityBuffer {
+  Buffer<std::uint32_t> words;  // two per pixel
+};
+
+class RasterisePass {
+ public:
+  /// `mesh`, `grass`: which kinds of triangles the scene has; kernels of an absent kind are not built.
+  RasterisePass(Device& device, bool mesh, bool grass);
+  /// Clears `visible`, marks the triangles that may cover a pixel centre, and scan-converts them.
+  /// `marks`: one byte per triangle slot, chunk_count * 256.
+  void run(const TriangleTables& triangles, const PosedVertices& posed, const CameraView& camera,
+           Buffer<std::uint8_t>& marks, VisibilityBuffer& visible);
+
+ private:
+  std::uint32_t triangles_per_item_;
+  std::size_t local_size_;
+  Kernel clear_;
+  std::optional<Kernel> cull_mesh_, cull_grass_;
+  std::vector<Kernel> rasterise_mesh_, rasterise_grass_;  // one each with 64-bit atomics, else one per raster pass
+  std::uint32_t clear_words_per_item_;
+};
+
+}  // namespace understory

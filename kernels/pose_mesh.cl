@@ -1,0 +1,29 @@
+// Moves the rest vertices of every instance to where they are at time t: leaf flutter, then the bend of the limb,
+// then the limb's rigid transform (records.h, LimbPose). One work-item poses W vertices of one block of 16.
+#pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/pose_limb.h"
+#include "kernels/shared/records.h"
+
+kernel void pose_mesh(global const float* rest_x, global const float* rest_y, global const float* rest_z,
+                      global const char* flutter_x, global const char* flutter_y, global const char* flutter_z,
+                      global const uchar* flutter_phase, global const PosedBlock* blocks,
+                      global const LimbPose* limbs, global float* x, global float* y, global float* z, uint items) {
+  const size_t i = get_global_id(0);
+  if (i >= items) return;
+  const uint per_block = 16 / W;
+  const PosedBlock block = blocks[i / per_block];
+  const size_t rest = (size_t)block.rest_block * per_block + i % per_block;
+  global const LimbPose* limb = limbs + block.limb_pose;
+
+  real px = LOAD(rest_x, rest), py = LOAD(rest_y, rest), pz = LOAD(rest_z, rest);
+  const real turns = LOAD_BYTE(flutter_phase, rest) * REAL(0.00390625) + (real)(limb->flutter_phase * 0.15915494f);
+  const real swing = (real)(limb->flutter_amplitude) * sine_of_turns(turns);
+  px = fma(LOAD_BYTE(flutter_x, rest), swing, px);
+  py = fma(LOAD_BYTE(flutter_y, rest), swing, py);
+  pz = fma(LOAD_BYTE(flutter_z, rest), swing, pz);
+
+  pose_on_limb(limb->to_limb, limb->curvature, limb->to_scene, &px, &py, &pz);
+  STORE(px, x, i);
+  STORE(py, y, i);
+  STORE(pz, z, i);
+}

@@ -1,0 +1,86 @@
+// Turns visible triangles into planes: position on the triangle under the pixel's sample, face normal turned to the
+// viewer (leaves are two-sided), camera depth, owner, validity; with -DGRASS_HEIGHT also the height of a blade's
+// fragment above its root and the blade's length. One work-item per fragment, padded fragments are background.
+#pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/camera.h"
+#include "kernels/shared/triangle_corners.h"
+#include "kernels/shared/visibility_buffer.h"
+
+#define BACKGROUND 1u  // validity code (FORMULAS.md)
+
+kernel void resolve(global const VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
+                    global const uint* index_a, global const uint* index_b, global const uint* index_c,
+                    global const float* vertex_x, global const float* vertex_y, global const float* vertex_z,
+                    const CameraView camera, uint padded_fragments, global float* position_x,
+                    global float* position_y, global float* position_z, global float* normal_x,
+                    global float* normal_y, global float* normal_z, global float* depth, global uint* owner,
+                    global uint* validity
+#ifdef GRASS_HEIGHT
+                    , global const float* blade_root_z, global const float* blade_length, float root_offset_z,
+                    global float* height_above_root, global float* total_height
+#endif
+) {
+  const uint i = get_global_id(0);
+  if (i >= padded_fragments) return;
+  const uint count = (uint)camera.width * (uint)camera.height;
+  const uint triangle = i < count ? visible_triangle(pixels, count, i) : NO_TRIANGLE;
+#ifdef GRASS_HEIGHT
+  height_above_root[i] = 0;
+  total_height[i] = 0;
+#endif
+  if (triangle == NO_TRIANGLE) {
+    position_x[i] = position_y[i] = position_z[i] = 0;
+    normal_x[i] = normal_y[i] = normal_z[i] = 0;
+    depth[i] = INFINITY;
+    owner[i] = 0;
+    validity[i] = BACKGROUND;
+    return;
+  }
+
+  const uint chunk_index = triangle / CHUNK, lane = triangle % CHUNK;
+  const TriangleChunk chunk = chunks[chunk_index];
+  const int is_mesh = chunk_index < mesh_chunks;
+  const Corners corners = is_mesh ? mesh_corners(chunk, lane, index_a, index_b, index_c) : grass_corners(chunk, lane);
+  const float ax = vertex_x[corners.a], ay = vertex_y[corners.a], az = vertex_z[corners.a];
+  const float ux = vertex_x[corners.b] - ax, uy = vertex_y[corners.b] - ay, uz = vertex_z[corners.b] - az;
+  const float vx = vertex_x[corners.c] - ax, vy = vertex_y[corners.c] - ay, vz = vertex_z[corners.c] - az;
+
+  // The ray through the pixel's sample; its forward component is 1, so that its parameter is the camera depth.
+  const float right = ((float)(i % (uint)camera.width) + 0.5f - camera.centre_x) / camera.focal;
+  const float down = ((float)(i / (uint)camera.width) + 0.5f - camera.centre_y) / camera.focal;
+  const float rx = fma(right, camera.right[0], fma(down, camera.down[0], camera.forward[0]));
+  const float ry = fma(right, camera.right[1], fma(down, camera.down[1], camera.forward[1]));
+  const float rz = fma(right, camera.right[2], fma(down, camera.down[2], camera.forward[2]));
+
+  float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const float scale = rsqrt(fmax(nx * nx + ny * ny + nz * nz, 1e-37f));
+  nx *= scale;
+  ny *= scale;
+  nz *= scale;
+  const float facing = nx * rx + ny * ry + nz * rz;
+
+  // Seen edge-on the plane says little about depth: keep it within the triangle's own range.
+  const float za = view_point(&camera, ax, ay, az).z, zb = za + view_point(&camera, ux, uy, uz).z,
+              zc = za + view_point(&camera, vx, vy, vz).z;
+  const float nearest = fmax(fmin(za, fmin(zb, zc)), camera.near_plane), farthest = fmax(za, fmax(zb, zc));
+  const float on_plane = (nx * ax + ny * ay + nz * az) / (fabs(facing) > 1e-12f ? facing : 1e-12f);
+  const float t = fmin(fmax(on_plane, nearest), farthest);
+
+  position_x[i] = t * rx;
+  position_y[i] = t * ry;
+  position_z[i] = t * rz;
+  const float turn = facing > 0 ? -1.0f : 1.0f;
+  normal_x[i] = nx * turn;
+  normal_y[i] = ny * turn;
+  normal_z[i] = nz * turn;
+  depth[i] = t;
+  owner[i] = chunk.owner;
+  validity[i] = 0;
+#ifdef GRASS_HEIGHT
+  if (!is_mesh) {
+    const uint blade = chunk.first_index + lane;
+    height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
+    total_height[i] = blade_length[blade];
+  }
+#endif
+}
