@@ -48,13 +48,18 @@ typedef JOIN(uint, W) bits;
 #define TO_REAL(value) JOIN(convert_float, W)(value)
 #endif
 
-// GATHER(real, table, index, .field): a member of table[index] for every lane of the `whole` or `bits` index.
-#define LANE(t, i, f, lane) (t)[(i).s##lane] f
-#define LANES_4(t, i, f) LANE(t, i, f, 0), LANE(t, i, f, 1), LANE(t, i, f, 2), LANE(t, i, f, 3)
-#define LANES_8(t, i, f) LANES_4(t, i, f), LANE(t, i, f, 4), LANE(t, i, f, 5), LANE(t, i, f, 6), LANE(t, i, f, 7)
-#define LANES_16(t, i, f)                                                                                     \
-  LANES_8(t, i, f), LANE(t, i, f, 8), LANE(t, i, f, 9), LANE(t, i, f, a), LANE(t, i, f, b), LANE(t, i, f, c), \
-      LANE(t, i, f, d), LANE(t, i, f, e), LANE(t, i, f, f)
+// GATHER(real, table, index, .member): a member of table[index] for every lane of the `whole` or `bits` index.
+#define LANE(table, index, member, lane) (table)[(index).s##lane] member
+#define LANES_4(table, index, member)                                                                     \
+  LANE(table, index, member, 0), LANE(table, index, member, 1), LANE(table, index, member, 2),            \
+      LANE(table, index, member, 3)
+#define LANES_8(table, index, member)                                                                     \
+  LANES_4(table, index, member), LANE(table, index, member, 4), LANE(table, index, member, 5),            \
+      LANE(table, index, member, 6), LANE(table, index, member, 7)
+#define LANES_16(table, index, member)                                                                    \
+  LANES_8(table, index, member), LANE(table, index, member, 8), LANE(table, index, member, 9),            \
+      LANE(table, index, member, a), LANE(table, index, member, b), LANE(table, index, member, c),        \
+      LANE(table, index, member, d), LANE(table, index, member, e), LANE(table, index, member, f)
 #if W == 1
 #define GATHER(type, table, index, field) ((type)((table)[index] field))
 #else
