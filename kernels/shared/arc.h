@@ -7,9 +7,6 @@
 
 #include "kernels/shared/real.h"
 
-#ifndef __OPENCL_C_VERSION__
-namespace understory {
-#endif
 
 #ifndef __OPENCL_C_VERSION__
 namespace understory {
@@ -47,9 +44,6 @@ SHARED real sine_of_turns(real t) {
   return REAL(2.0) * s * c;
 }
 
-#ifndef __OPENCL_C_VERSION__
-}  // namespace understory
-#endif
 #ifndef __OPENCL_C_VERSION__
 }  // namespace understory
 #endif

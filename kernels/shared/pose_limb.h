@@ -5,9 +5,6 @@
 
 #include "kernels/shared/arc.h"
 
-#ifndef __OPENCL_C_VERSION__
-namespace understory {
-#endif
 
 #ifndef __OPENCL_C_VERSION__
 namespace understory {
@@ -27,9 +24,6 @@ SHARED void pose_on_limb(MATRIX to_limb, ELEMENT curvature, MATRIX to_scene, PRI
 }
 
 #undef ROW
-#ifndef __OPENCL_C_VERSION__
-}  // namespace understory
-#endif
 #ifndef __OPENCL_C_VERSION__
 }  // namespace understory
 #endif
