@@ -17,6 +17,7 @@ struct MotionRecord {
   };
   std::filesystem::path file;
   std::vector<Track> tracks;
+  double start = 0, period = 0;  // s
 
   /// Null when the record has no such part.
   const Track* find(const std::string& part) const;
