@@ -2,6 +2,7 @@
 // Instances share it. Its vertices belong to limbs, the stiff pieces that sway moves.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -11,7 +12,11 @@ namespace understory {
 
 /// What a surface is; the owner classes of DESIGN.md.
 enum class SurfaceClass : std::uint8_t { background, terrain, leaf, wood, blade, occluder };
-const char* surface_class_name(SurfaceClass surface);
+/// As the owner table of frame files names it.
+inline const char* surface_class_name(SurfaceClass surface) {
+  constexpr const char* names[] = {"background", "terrain", "leaf", "wood", "blade", "occluder"};
+  return names[static_cast<std::size_t>(surface)];
+}
 
 enum class SwayKind : std::uint8_t { rigid, trunk, branch };
 
