@@ -17,27 +17,27 @@ struct PosedCrown {
   glm::vec3 ellipsoid_centre{0};
   glm::mat3 ellipsoid_axes{1};
   glm::vec3 ellipsoid_radii{0};
-  float alpha_rho = 0;            // eq. 6, 1/m^3
+  float alpha_rho = 0, alpha_rho_ellipsoid = 0;  // eq. 6 in the sphere and in the ellipsoid, 1/m^3
   float reeves_blau_ambient = 1, reeves_blau_extinction = 0;
-  float opacity = 1;              // share of the sky light its disc blocks: 1 - mean transmittance
-  std::int32_t group = -1;        // Owner::group of the plant
+  float opacity = 1;        // share of the sky light its disc blocks: 1 - mean transmittance
+  std::int32_t group = -1;  // Owner::group of the plant
 };
 
 /// A sphere standing for (a piece of) a moving occluder. Camera-relative metres.
 struct PosedSphere {
   glm::vec3 centre{0};
   float radius = 0;
-  std::int32_t group = -1;        // Owner::group of the part: it does not shade itself
+  std::int32_t group = -1;  // Owner::group of the part: it does not shade itself
 };
 
 struct Pose {
   double time = 0;
-  glm::dvec3 eye{0};                    // camera position relative to the origin
-  std::vector<LimbPose> limbs;          // all instances' limbs, in order of World::instances
+  glm::dvec3 eye{0};                      // camera position relative to the origin
+  std::vector<LimbPose> limbs;            // all instances' limbs, in order of World::instances
   std::vector<std::uint32_t> first_limb;  // per instance
-  std::vector<PosedCrown> crowns;       // indexed by Owner::crown
-  std::vector<PosedSphere> spheres;     // moving occluders
-  std::vector<GrassWind> grass;         // per World::grass
+  std::vector<PosedCrown> crowns;         // indexed by Owner::crown
+  std::vector<PosedSphere> spheres;       // moving occluders
+  std::vector<GrassWind> grass;           // per World::grass
 };
 
 /// `eye` is subtracted from every position. Deterministic for any thread count.

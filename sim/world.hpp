@@ -35,6 +35,7 @@ struct Instance {
   glm::dvec3 position{0};      // root, relative to the origin
   double yaw = 0, scale = 1;
   double delay = 0;                      // s, individual shift of its sway
+  std::int32_t crown = -1;               // index in Pose::crowns; plants with foliage only
   std::vector<std::uint32_t> run_owner;  // owner of each TriangleRun of the prototype
 };
 
@@ -53,7 +54,7 @@ struct GrassBlades {
 
 /// Constants of the crown models of one species at scale 1. A plant of scale s has alpha_rho / s^3 and extinction / s.
 struct CrownModel {
-  float alpha_rho = 0;                                        // eq. 6, 1/m^3
+  float alpha_rho = 0, alpha_rho_ellipsoid = 0;               // eq. 6 in the crown's sphere and ellipsoid, 1/m^3
   float reeves_blau_ambient = 1, reeves_blau_extinction = 0;  // A; a, 1/m
   float opacity = 0;                                          // 1 - mean transmittance of the crown's disc
 };
