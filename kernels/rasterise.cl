@@ -14,7 +14,7 @@ typedef struct {
   float inverse_z;  // 1/m
 } ScreenCorner;
 
-ScreenCorner screen_corner(const CameraView* camera, ViewPoint v) {
+static inline ScreenCorner screen_corner(const CameraView* camera, ViewPoint v) {
   ScreenCorner s;
   s.inverse_z = 1.0f / v.z;
   const float scale = camera->focal * s.inverse_z;
@@ -24,10 +24,10 @@ ScreenCorner screen_corner(const CameraView* camera, ViewPoint v) {
 }
 
 // First pixel whose centre is at or right of `fixed`, and last whose centre is at or left of it.
-int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
-int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
+static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
+static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
 
-void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, uint triangle,
+static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, uint triangle,
                   global VisibleTriangle* pixels) {
   const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
   const int right = min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1);
@@ -71,7 +71,7 @@ void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, Scre
   }
 }
 
-void rasterise(const CameraView* camera, Corners corners, global const float* x, global const float* y,
+static inline void rasterise(const CameraView* camera, Corners corners, global const float* x, global const float* y,
                global const float* z, uchar mark, uint triangle, global VisibleTriangle* pixels) {
   ViewPoint polygon[CLIPPED_CORNERS];
   polygon[0] = view_point(camera, x[corners.a], y[corners.a], z[corners.a]);
@@ -100,7 +100,7 @@ kernel void rasterise_mesh(global const uchar* marks, uint triangles, global con
   const uint begin = get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, triangles);
   for (uint t = begin; t < end; ++t)
     if (marks[t])
-      rasterise(&camera, mesh_corners(chunks[t / CHUNK], t % CHUNK, index_a, index_b, index_c), x, y, z, marks[t], t,
+      rasterise(&camera, mesh_corners(chunks + t / CHUNK, t % CHUNK, index_a, index_b, index_c), x, y, z, marks[t], t,
                 pixels);
 }
 
@@ -109,5 +109,5 @@ kernel void rasterise_grass(global const uchar* marks, uint first, uint end_tria
                             const CameraView camera, global VisibleTriangle* pixels) {
   const uint begin = first + get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, end_triangle);
   for (uint t = begin; t < end; ++t)
-    if (marks[t]) rasterise(&camera, grass_corners(chunks[t / CHUNK], t % CHUNK), x, y, z, marks[t], t, pixels);
+    if (marks[t]) rasterise(&camera, grass_corners(chunks + t / CHUNK, t % CHUNK), x, y, z, marks[t], t, pixels);
 }

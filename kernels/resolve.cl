@@ -38,7 +38,7 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
   }
 
   const uint chunk_index = triangle / CHUNK, lane = triangle % CHUNK;
-  const TriangleChunk chunk = chunks[chunk_index];
+  global const TriangleChunk* chunk = chunks + chunk_index;
   const int is_mesh = chunk_index < mesh_chunks;
   const Corners corners = is_mesh ? mesh_corners(chunk, lane, index_a, index_b, index_c) : grass_corners(chunk, lane);
   const float ax = vertex_x[corners.a], ay = vertex_y[corners.a], az = vertex_z[corners.a];
@@ -74,11 +74,11 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
   normal_y[i] = ny * turn;
   normal_z[i] = nz * turn;
   depth[i] = t;
-  owner[i] = chunk.owner;
+  owner[i] = chunk->owner;
   validity[i] = 0;
 #ifdef GRASS_HEIGHT
   if (!is_mesh) {
-    const uint blade = chunk.first_index + lane;
+    const uint blade = chunk->first_index + lane;
     height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
     total_height[i] = blade_length[blade];
   }

@@ -9,9 +9,10 @@
 namespace understory {
 namespace {
 
-/// Starts of each prototype in the concatenated planes.
+/// Where a prototype stands in the concatenated planes.
 struct PrototypeStart {
-  std::uint32_t block = 0, triangle = 0;
+  std::uint32_t block = 0;
+  std::vector<std::uint32_t> run_triangle;  // first triangle of each run, a multiple of 256
 };
 
 template <typename T>
@@ -30,7 +31,8 @@ std::vector<PrototypeStart> upload_prototypes(Device& device, const World& world
   std::vector<std::uint32_t> a, b, c;
   std::vector<PrototypeStart> starts;
   for (const Prototype& prototype : world.prototypes) {
-    starts.push_back({static_cast<std::uint32_t>(all.x.size() / vertex_block), static_cast<std::uint32_t>(a.size())});
+    PrototypeStart& start = starts.emplace_back();
+    start.block = static_cast<std::uint32_t>(all.x.size() / vertex_block);
     const VertexBlocks& vertices = prototype.vertices;
     append(all.x, vertices.x);
     append(all.y, vertices.y);
@@ -39,10 +41,15 @@ std::vector<PrototypeStart> upload_prototypes(Device& device, const World& world
     append(all.flutter_y, vertices.flutter_y);
     append(all.flutter_z, vertices.flutter_z);
     append(all.flutter_phase, vertices.flutter_phase);
-    for (std::size_t i = 0; i < prototype.triangles.size(); i += 3) {
-      a.push_back(prototype.triangles[i]);
-      b.push_back(prototype.triangles[i + 1]);
-      c.push_back(prototype.triangles[i + 2]);
+    for (const TriangleRun& run : prototype.runs) {
+      start.run_triangle.push_back(static_cast<std::uint32_t>(a.size()));
+      for (std::size_t i = 3 * std::size_t{run.first}; i < 3 * (std::size_t{run.first} + run.count); i += 3) {
+        a.push_back(prototype.triangles[i]);
+        b.push_back(prototype.triangles[i + 1]);
+        c.push_back(prototype.triangles[i + 2]);
+      }
+      const std::size_t padded = (a.size() + triangles_per_chunk - 1) / triangles_per_chunk * triangles_per_chunk;
+      for (std::vector<std::uint32_t>* index : {&a, &b, &c}) index->resize(padded, 0);  // no area, no pixels
     }
   }
   geometry.rest = {upload(device, all.x, "rest vertices"),         upload(device, all.y, "rest vertices"),
@@ -61,14 +68,14 @@ void lay_out_instances(const World& world, const std::vector<PrototypeStart>& st
   for (std::size_t i = 0; i < world.instances.size(); ++i) {
     const Instance& instance = world.instances[i];
     const Prototype& prototype = world.prototypes[instance.prototype];
-    const PrototypeStart start = starts[instance.prototype];
+    const PrototypeStart& start = starts[instance.prototype];
     const auto first_vertex = static_cast<std::uint32_t>(blocks.size() * vertex_block);
     for (std::size_t block = 0; block < prototype.vertices.block_limb.size(); ++block)
       blocks.push_back({start.block + static_cast<std::uint32_t>(block),
                         limb_starts[i] + prototype.vertices.block_limb[block]});
     for (std::size_t run = 0; run < prototype.runs.size(); ++run)
       for (std::uint32_t done = 0; done < prototype.runs[run].count; done += triangles_per_chunk)
-        geometry.chunks.push_back({first_vertex, start.triangle + prototype.runs[run].first + done,
+        geometry.chunks.push_back({first_vertex, start.run_triangle[run] + done,
                                    std::min(triangles_per_chunk, prototype.runs[run].count - done),
                                    instance.run_owner[run]});
   }

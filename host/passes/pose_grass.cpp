@@ -4,7 +4,9 @@
 
 namespace understory {
 
-PoseGrassPass::PoseGrassPass(Device& device) : kernel_(device, "pose_grass", "pose_grass", "pose_grass", "-DW=1") {}
+PoseGrassPass::PoseGrassPass(Device& device)
+    : lanes_(static_cast<std::size_t>(device.info().vector_width)),
+      kernel_(device, "pose_grass", "pose_grass", "pose_grass") {}
 
 void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const SwaySeries& series,
                         std::uint32_t first_blade, std::uint32_t blades, std::uint32_t first_vertex,
@@ -16,7 +18,7 @@ void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const Swa
                                            std::to_string(series.size()) + " samples do not fit " +
                                            std::to_string(posed.x.size()) + " vertices and a wind of " +
                                            std::to_string(wind.series_count) + " samples");
-  kernel_.launch(blades, blades_per_group, rest.root_x, rest.root_y, rest.root_z, rest.length, rest.half_width,
+  kernel_.launch(blades / lanes_, blades_per_group / lanes_, rest.root_x, rest.root_y, rest.root_z, rest.length, rest.half_width,
                  rest.bend_x, rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase, wind, series,
                  first_blade, first_vertex, posed.x, posed.y, posed.z);
 }

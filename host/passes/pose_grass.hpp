@@ -18,6 +18,7 @@ class PoseGrassPass {
            std::uint32_t blades, std::uint32_t first_vertex, PosedVertices& posed);
 
  private:
+  std::size_t lanes_;
   Kernel kernel_;
 };
 

@@ -23,7 +23,8 @@ std::vector<Kernel> raster_kernels(Device& device, const char* name, std::uint32
 }  // namespace
 
 RasterisePass::RasterisePass(Device& device, bool mesh, bool grass)
-    : triangles_per_item_(triangles_per_item(device)),
+    : lanes_(static_cast<std::size_t>(device.info().vector_width)),
+      triangles_per_item_(triangles_per_item(device)),
       local_size_(device.info().type == "cpu" ? 16 : 64),
       clear_(device, "rasterise", "clear_visible", "clear_visible",
              "-DTRIANGLES_PER_ITEM=" + std::to_string(triangles_per_item_) +
@@ -46,10 +47,10 @@ void RasterisePass::run(const TriangleTables& triangles, const PosedVertices& po
   const std::uint32_t end = triangles.chunk_count() * triangles_per_chunk;
   clear_.launch(words, 256, visible.words, words);
   if (cull_mesh_)
-    cull_mesh_->launch(mesh_end, triangles_per_chunk, triangles.chunks, triangles.index_a, triangles.index_b,
+    cull_mesh_->launch(mesh_end / lanes_, triangles_per_chunk / lanes_, triangles.chunks, triangles.index_a, triangles.index_b,
                        triangles.index_c, posed.x, posed.y, posed.z, camera, marks);
   if (cull_grass_)
-    cull_grass_->launch(end - mesh_end, triangles_per_chunk, triangles.chunks, triangles.mesh_chunks, posed.x, posed.y,
+    cull_grass_->launch((end - mesh_end) / lanes_, triangles_per_chunk / lanes_, triangles.chunks, triangles.mesh_chunks, posed.x, posed.y,
                         posed.z, camera, marks);
   const std::size_t mesh_items = (mesh_end + triangles_per_item_ - 1) / triangles_per_item_;
   const std::size_t grass_items = (end - mesh_end + triangles_per_item_ - 1) / triangles_per_item_;

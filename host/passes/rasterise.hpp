@@ -23,6 +23,7 @@ class RasterisePass {
            Buffer<std::uint8_t>& marks, VisibilityBuffer& visible);
 
  private:
+  std::size_t lanes_;
   std::uint32_t triangles_per_item_;
   std::size_t local_size_;
   Kernel clear_;

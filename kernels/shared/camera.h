@@ -8,7 +8,7 @@ typedef struct {
   float x, y, z;  // metres to the right, down, and forward of the eye
 } ViewPoint;
 
-ViewPoint view_point(const CameraView* camera, float x, float y, float z) {
+static inline ViewPoint view_point(const CameraView* camera, float x, float y, float z) {
   ViewPoint v;
   v.x = fma(camera->right[0], x, fma(camera->right[1], y, camera->right[2] * z));
   v.y = fma(camera->down[0], x, fma(camera->down[1], y, camera->down[2] * z));

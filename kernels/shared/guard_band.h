@@ -9,7 +9,7 @@
 #define CLIPPED_CORNERS 8  // a triangle cut by five planes has at most eight corners
 
 // Signed distance (any positive scale) of a point to clip plane 0..4: near, left, right, top, bottom.
-float clip_distance(const CameraView* camera, ViewPoint v, int plane) {
+static inline float clip_distance(const CameraView* camera, ViewPoint v, int plane) {
   const float side = v.z * (GUARD_BAND * 0.999f), x = v.x * camera->focal, y = v.y * camera->focal;
   switch (plane) {
     case 0: return v.z - camera->near_plane;
@@ -21,7 +21,7 @@ float clip_distance(const CameraView* camera, ViewPoint v, int plane) {
 }
 
 // Sutherland-Hodgman. `polygon` holds three corners on entry; returns how many it holds on exit (0: nothing left).
-int clip_to_guard_band(const CameraView* camera, ViewPoint* polygon) {
+static inline int clip_to_guard_band(const CameraView* camera, ViewPoint* polygon) {
   ViewPoint kept[CLIPPED_CORNERS];
   int count = 3;
   for (int plane = 0; plane < 5 && count > 0; ++plane) {

@@ -33,6 +33,9 @@ typedef uint bits;
 #define AS_REAL(value) as_float(value)
 #define TO_WHOLE(value) convert_int(value)
 #define TO_REAL(value) convert_float(value)
+#define BYTES uchar
+#define TO_BYTES(value) convert_uchar(value)
+#define TO_BITS(value) convert_uint(value)
 #else
 typedef JOIN(float, W) real;
 typedef JOIN(int, W) truth;
@@ -46,6 +49,9 @@ typedef JOIN(uint, W) bits;
 #define AS_REAL(value) JOIN(as_float, W)(value)
 #define TO_WHOLE(value) JOIN(convert_int, W)(value)
 #define TO_REAL(value) JOIN(convert_float, W)(value)
+#define BYTES JOIN(uchar, W)
+#define TO_BYTES(value) JOIN(convert_uchar, W)(value)
+#define TO_BITS(value) JOIN(convert_uint, W)(value)
 #endif
 
 // GATHER(real, table, index, .member): a member of table[index] for every lane of the `whole` or `bits` index.

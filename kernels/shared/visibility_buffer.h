@@ -13,13 +13,13 @@
 typedef ulong VisibleTriangle;
 #define NOTHING_VISIBLE 0xffffffffffffffffUL
 
-void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
+static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
   const ulong offered = ((ulong)as_uint(depth) << 32) | triangle;
   global ulong* seen = pixels + pixel;
   if (offered < *seen) atom_min(seen, offered);  // the plain read avoids most atomics; a stale one costs only time
 }
 
-uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
+static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
   return (uint)pixels[pixel];
 }
 
@@ -31,7 +31,7 @@ typedef uint VisibleTriangle;
 #define RASTER_PASS 0
 #endif
 
-void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
+static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
   global uint* nearest = pixels + pixel;
 #if RASTER_PASS == 0
   const uint bits = as_uint(depth);
@@ -42,7 +42,7 @@ void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t 
 #endif
 }
 
-uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
+static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
   return pixels[pixels_count + pixel];
 }
 #endif
