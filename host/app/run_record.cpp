@@ -44,6 +44,7 @@ Json validity_of_all(const RunRecord& record) {
 /// The keys that must agree, by name.
 std::vector<std::pair<std::string, std::string>> identity(const RunRecord& record) {
   return {{"version", record.version},
+          {"program (SHA-256 of the executable)", record.program_sha256},
           {"scene (with --set and the method options)", record.scene_sha256},
           {"input files", Json(record.inputs).dump()},
           {"device", record.device},
@@ -76,6 +77,7 @@ std::vector<std::string> differences(const RunRecord& earlier, const RunRecord& 
 
 std::string to_json_text(const RunRecord& record) {
   Json json = {{"understory", record.version},
+               {"program_sha256", record.program_sha256},
                {"complete", record.complete},
                {"scene", record.scene},
                {"scene_sha256", record.scene_sha256},
@@ -104,6 +106,7 @@ RunRecord parse_run_record(const std::string& text, const std::string& where) {
   return parse_json(text, where, [](const Json& json) {
     RunRecord record;
     json.at("understory").get_to(record.version);
+    json.at("program_sha256").get_to(record.program_sha256);
     json.at("complete").get_to(record.complete);
     json.at("scene").get_to(record.scene);
     json.at("scene_sha256").get_to(record.scene_sha256);

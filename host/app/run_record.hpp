@@ -28,6 +28,7 @@ struct FailedFrame {
 struct RunRecord {
   /// What decides the bytes of the files. A run is resumed only when these are unchanged.
   std::string version;
+  std::string program_sha256;                 // of the executable: another build may round differently
   std::string scene_sha256;                   // of the resolved scene, overrides applied
   std::map<std::string, std::string> inputs;  // files the scene names -> SHA-256
   std::string device;                         // the device's description as JSON text; empty: not chosen yet

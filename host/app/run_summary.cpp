@@ -1,0 +1,80 @@
+// Formats the summary of a run.
+#include "host/app/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace understory {
+namespace {
+
+/// File names of one kind: same stem and extension.
+struct FileKind {
+  std::string first, last;
+  int count = 0;
+};
+
+std::string file_lines(const RunRecord& record) {
+  std::map<std::pair<std::string, std::string>, FileKind> kinds;
+  for (const auto& [index, frame] : record.frames)
+    for (const auto& [name, sha256] : frame.files) {
+      const std::filesystem::path path(name);
+      FileKind& kind = kinds[{path.stem().string().substr(0, path.stem().string().find('_')), path.extension()}];
+      if (kind.count++ == 0) kind.first = name;
+      kind.last = name;
+    }
+  std::string lines;
+  for (const auto& [key, kind] : kinds)
+    lines += kind.count > 1 ? fmt::format("  {} ... {} ({})\n", kind.first, kind.last, kind.count)
+                            : fmt::format("  {}\n", kind.first);
+  return lines;
+}
+
+std::string time_table(const RunRecord& record) {
+  std::map<std::string, std::vector<double>> by_pass;
+  std::vector<double> sums, frames;
+  for (const auto& [index, frame] : record.frames) {
+    double sum = 0;
+    for (const auto& [pass, ms] : frame.passes) {
+      by_pass[pass].push_back(ms);
+      sum += ms;
+    }
+    sums.push_back(sum);
+    frames.push_back(frame.ms);
+  }
+  std::string table = fmt::format("{:<28}{:>10}\n", "pass", "median ms");
+  const auto add_row = [&](const std::string& name, const std::vector<double>& values) {
+    table += fmt::format("{:<28}{:>10.2f}\n", name, median(values));
+  };
+  for (const std::string& pass : record.plan)  // in the order of execution
+    if (const auto found = by_pass.find(pass); found != by_pass.end()) {
+      add_row(pass, found->second);
+      by_pass.erase(found);
+    }
+  for (const auto& [pass, values] : by_pass) add_row(pass, values);
+  add_row("all passes on the device", sums);
+  add_row("whole frame", frames);
+  return table;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+std::string run_summary(const std::filesystem::path& folder, const RunRecord& record) {
+  std::string text = fmt::format("{}: {} frames of {}x{}{}\n", folder.string(), record.frames.size(), record.width,
+                                 record.height, record.complete ? "" : ", not complete");
+  text += file_lines(record);
+  for (const char* name : {"planes.pvd", "geometry.pvd", "contact_sheet.png", "movie.ogv", "run.json"})
+    if (std::filesystem::exists(folder / name)) text += fmt::format("  {}\n", name);
+  return record.frames.empty() ? text : text + '\n' + time_table(record);
+}
+
+}  // namespace understory
