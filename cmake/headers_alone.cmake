@@ -1,4 +1,5 @@
 # Target headers_alone compiles each header by itself: a header that leans on what others happen to include fails.
+find_package(GTest REQUIRED)
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} bench/*.hpp host/*.hpp kernels/*.hpp sim/*.hpp
      viz/*.hpp tests/*.hpp)
 set(sources)
