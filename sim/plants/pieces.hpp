@@ -1,0 +1,34 @@
+// The connected pieces of a mesh, and what a piece of wood tells about its growth: two ends, one of them thicker.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace understory {
+
+/// Vertices grouped by piece: piece p has vertices[first[p]] .. vertices[first[p + 1] - 1], in rising order.
+struct Pieces {
+  std::vector<std::uint32_t> of_vertex;  // piece of each vertex; `no_piece` for vertices without triangle
+  std::vector<std::uint32_t> vertices, first;
+  std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
+};
+inline constexpr std::uint32_t no_piece = 0xffffffffu;
+
+/// Triangles that share a vertex or a position (to the bit) belong to one piece. Numbered by their lowest vertex.
+Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& triangles);
+
+/// An end of a stem: the middle of its outermost vertices and their mean distance from it, m.
+struct StemEnd {
+  glm::vec3 middle{0};
+  float radius = 0;
+};
+
+struct StemPiece {
+  StemEnd ends[2];
+  float extent = 0;  // m, between the ends
+};
+
+/// The ends of a piece: its vertices near the two points that lie farthest apart (found in two sweeps).
+StemPiece measure_stem(const std::vector<glm::vec3>& positions, const Pieces& pieces, std::size_t piece);
+
+}  // namespace understory
