@@ -174,6 +174,7 @@ GrassBlades grow_grass(const GrassField& field, std::uint32_t index, std::uint64
 
 double exponential_integral_3(double x) {
   if (x <= 0) return 0.5;
+  if (x > 100) return 0;  // below 4e-46; libstdc++'s expint is wrong there by orders of magnitude
   // E_1(x) = -Ei(-x); recurrence n E_{n+1} = exp(-x) - x E_n (Abramowitz & Stegun 5.1.14).
   return std::max(0.0, (std::exp(-x) * (1 - x) - x * x * std::expint(-x)) / 2);
 }
