@@ -12,6 +12,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -39,21 +40,36 @@ struct DestroyFeature {
 using Dataset = std::unique_ptr<void, CloseDataset>;
 using Feature = std::unique_ptr<void, DestroyFeature>;
 
+[[noreturn]] void reject_table(const std::filesystem::path& file) {
+  throw Error(
+      ErrorKind::invalid_input,
+      fmt::format("{}: no table of values, allowed: a header line naming two or more columns, separated by comma, "
+                  "semicolon or tab, and at least one row",
+                  file.string()));
+}
+
 Dataset open_csv(const std::filesystem::path& file) {
   static std::once_flag registered;
   std::call_once(registered, [] { OGRRegisterAll(); });
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw Error(ErrorKind::input_output, fmt::format("{}: no such file", file.string()));
   const char* const drivers[] = {"CSV", nullptr};
   const char* const options[] = {"HEADERS=YES", "AUTODETECT_TYPE=NO", nullptr};
   // The prefix lets any file name extension through.
-  Dataset dataset(
-      GDALOpenEx(("CSV:" + file.string()).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, options, nullptr));
-  if (!dataset)
-    throw Error(ErrorKind::input_output,
-                fmt::format("{}: not readable as CSV: {}", file.string(), CPLGetLastErrorMsg()));
+  const std::string name = "CSV:" + file.string();
+  Dataset dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, options, nullptr));
+  if (!dataset) reject_table(file);
   return dataset;
+}
+
+/// Numbers, counted from 1, of the lines that are not empty: the driver skips the others without counting them.
+std::vector<std::size_t> filled_lines(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!std::filesystem::is_regular_file(file) || !stream)
+    throw Error(ErrorKind::input_output, fmt::format("{}: not readable as a file", file.string()));
+  std::vector<std::size_t> numbers;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number)
+    if (!line.empty() && line != "\r") numbers.push_back(number);
+  return numbers;
 }
 
 std::string trimmed(const std::string& text) {
@@ -91,25 +107,24 @@ std::optional<double> date_and_time(const std::string& cell) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file) : file_(file) {
+CsvTable::CsvTable(const std::filesystem::path& file) : file_(file), lines_(filled_lines(file)) {
   const QuietGdal quiet;
   const Dataset dataset = open_csv(file);
   const OGRLayerH layer = GDALDatasetGetLayer(dataset.get(), 0);
-  const OGRFeatureDefnH fields = layer ? OGR_L_GetLayerDefn(layer) : nullptr;
-  const int count = fields ? OGR_FD_GetFieldCount(fields) : 0;
+  if (!layer) reject_table(file);
+  const OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
+  const int count = OGR_FD_GetFieldCount(fields);
   for (int i = 0; i < count; ++i) columns_.push_back(trimmed(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i))));
   cells_.resize(columns_.size());
-  while (layer) {
-    const Feature feature(OGR_L_GetNextFeature(layer));
-    if (!feature) break;
-    // The driver counts records from 1 and skips no line but the header's.
-    lines_.push_back(static_cast<std::size_t>(OGR_F_GetFID(feature.get())) + 1);
+  std::size_t rows = 0;
+  while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
     for (int i = 0; i < count; ++i) cells_[i].push_back(trimmed(OGR_F_GetFieldAsString(feature.get(), i)));
+    ++rows;
   }
-  if (lines_.empty())
-    throw Error(
-        ErrorKind::invalid_input,
-        fmt::format("{}: no rows, allowed: a header line with column names and at least one row", file.string()));
+  if (rows == 0 || columns_.size() < 2) reject_table(file);
+  lines_.erase(lines_.begin());  // the header's
+  // A quoted line break makes fewer rows than lines; line ends of a lone carriage return make more.
+  lines_.resize(rows, lines_.empty() ? 1 : lines_.back());
 }
 
 bool CsvTable::has(const std::string& column) const {

@@ -29,7 +29,7 @@ class CsvTable {
   std::filesystem::path file_;
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> cells_;  // [column][row]
-  std::vector<std::size_t> lines_;
+  std::vector<std::size_t> lines_;               // [row]
 };
 
 }  // namespace understory

@@ -16,5 +16,5 @@ inline std::filesystem::path data_folder() {
 }  // namespace understory
 
 /// First line of a test that needs the data folder: skips it aloud where there is none.
-#define UNDERSTORY_NEEDS_DATA()                                                                           \
+#define UNDERSTORY_NEEDS_DATA() \
   if (understory::data_folder().empty()) GTEST_SKIP() << "needs real data: set UNDERSTORY_DATA to its folder"
