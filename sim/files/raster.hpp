@@ -23,8 +23,9 @@ struct HeightRaster {
   Region extent() const { return {first, first + cell_size * glm::dvec2(columns - 1, rows - 1)}; }
 };
 
-/// Reads the first band. Feet and other linear units become metres. Throws Error(invalid_input) naming the file: missing,
-/// not a raster, too large, rotated, not georeferenced, in degrees instead of a linear unit, or without a single height.
+/// Reads the first band. Feet and other linear units become metres. Throws Error(invalid_input) naming the file:
+/// missing, not a raster, too large, rotated, not georeferenced, in degrees instead of a linear unit, or without a
+/// single height.
 HeightRaster read_height_raster(const std::filesystem::path& file);
 
 }  // namespace understory

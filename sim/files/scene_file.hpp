@@ -12,7 +12,8 @@ namespace understory {
 /// Reads a scene. `overrides` are `wind.speed=4.2`, with list positions counted from 0 (`occluders.0.name=ball`) and
 /// any YAML flow value on the right; `null` takes the key out. Relative paths start at the file's folder and may begin
 /// with an environment variable, `${UNDERSTORY_DATA}/plants/birch.glb`.
-/// Throws Error(invalid_input): `file:line:column: key: value: what is allowed`, the first of what validate_scene lists.
+/// Throws Error(invalid_input): `file:line:column: key: value: what is allowed`, the first of what validate_scene
+/// lists.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// Everything that is wrong with a scene, in the order of the file, one line each; empty: load_scene accepts it.
