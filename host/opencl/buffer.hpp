@@ -12,7 +12,8 @@ namespace understory {
 class RawBuffer {
  public:
   RawBuffer() = default;
-  /// Uninitialised. Throws Error(invalid_input) naming `what`, the bytes asked for and the device's limits.
+  /// Uninitialised; of 0 bytes: kernels get a null pointer. Throws Error(invalid_input) naming `what`, the bytes asked
+  /// for and the device's limits.
   RawBuffer(Device& device, std::size_t bytes, const char* what);
   ~RawBuffer();
   RawBuffer(RawBuffer&& other) noexcept;

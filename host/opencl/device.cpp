@@ -22,10 +22,10 @@ std::string type_name(cl_device_type type) {
   return type & CL_DEVICE_TYPE_ACCELERATOR ? "accelerator" : "other";
 }
 
-/// Lanes that OpenCL C has vector types for; a GPU runs one lane per work-item anyway.
+/// Lanes that `real` (kernels/shared/real.h) can have; a GPU runs one lane per work-item anyway.
 int lanes(const cl::Device& device, const std::string& type) {
   const int preferred = static_cast<int>(device.getInfo<CL_DEVICE_PREFERRED_VECTOR_WIDTH_FLOAT>());
-  const bool usable = preferred == 2 || preferred == 4 || preferred == 8 || preferred == 16;
+  const bool usable = preferred == 4 || preferred == 8 || preferred == 16;
   return type == "cpu" && usable ? preferred : 1;
 }
 

@@ -22,8 +22,9 @@ class Kernel {
   Kernel(Kernel&&) noexcept;
   Kernel& operator=(Kernel&&) noexcept;
 
-  /// Enqueues `items` work-items, rounded up to a multiple of `local`: kernels guard against the surplus.
-  /// Arguments are Buffer<T> or plain values of the exact size the kernel declares.
+  /// Enqueues `items` work-items, rounded up to a multiple of `local`: kernels guard against the surplus. `local` 0
+  /// means 256; more than the device or the kernel allows is cut to that. No items: nothing is launched. Arguments are
+  /// Buffer<T> or plain values of the exact size the kernel declares.
   template <typename... Args>
   void launch(std::size_t items, std::size_t local, const Args&... args) {
     unsigned index = 0;

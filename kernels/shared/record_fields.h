@@ -1,0 +1,28 @@
+// The fields of every record of records.h, for the test that compares how host and device lay them out.
+#ifndef UNDERSTORY_RECORD_FIELDS_H
+#define UNDERSTORY_RECORD_FIELDS_H
+#include "kernels/shared/records.h"
+
+/// Applies `field(record, name)` to each field, in the order of declaration, and `record(name)` after its last.
+#define UNDERSTORY_RECORD_FIELDS(record, field)                                                                     \
+  field(LimbPose, to_limb) field(LimbPose, to_scene) field(LimbPose, curvature) field(LimbPose, flutter_amplitude)  \
+  field(LimbPose, flutter_phase) field(LimbPose, padding_) record(LimbPose)                                         \
+  field(PosedBlock, rest_block) field(PosedBlock, limb_pose) record(PosedBlock)                                     \
+  field(TriangleChunk, first_vertex) field(TriangleChunk, first_index) field(TriangleChunk, count)                  \
+  field(TriangleChunk, owner) record(TriangleChunk)                                                                 \
+  field(GrassWind, direction_x) field(GrassWind, direction_y) field(GrassWind, slowness)                            \
+  field(GrassWind, sample_time) field(GrassWind, series_rate) field(GrassWind, mean_bend)                           \
+  field(GrassWind, flutter_amplitude) field(GrassWind, flutter_phase) field(GrassWind, lateral_scale)               \
+  field(GrassWind, lateral_delay) field(GrassWind, root_offset_x) field(GrassWind, root_offset_y)                   \
+  field(GrassWind, root_offset_z) field(GrassWind, series_count) field(GrassWind, padding_) record(GrassWind)       \
+  field(CameraView, right) field(CameraView, down) field(CameraView, forward) field(CameraView, focal)              \
+  field(CameraView, centre_x) field(CameraView, centre_y) field(CameraView, near_plane) field(CameraView, width)    \
+  field(CameraView, height) field(CameraView, padding_) record(CameraView)                                          \
+  field(ShadingSphere, x) field(ShadingSphere, y) field(ShadingSphere, z) field(ShadingSphere, radius)              \
+  field(ShadingSphere, opacity) field(ShadingSphere, group) field(ShadingSphere, padding_) record(ShadingSphere)    \
+  field(CrownRecord, x) field(CrownRecord, y) field(CrownRecord, z) field(CrownRecord, radius)                      \
+  field(CrownRecord, centre_x) field(CrownRecord, centre_y) field(CrownRecord, centre_z)                            \
+  field(CrownRecord, alpha_rho) field(CrownRecord, to_unit) field(CrownRecord, volume_scale)                        \
+  field(CrownRecord, ambient) field(CrownRecord, extinction) field(CrownRecord, padding_) record(CrownRecord)
+
+#endif
