@@ -36,9 +36,10 @@ bool is_run_file(const std::string& name) {
   return std::regex_match(name, pattern);
 }
 
-/// The names that write_atomically (sim/files) gives unfinished files: .STEM.tmp-PROCESS.EXTENSION
+/// The names of unfinished files: .STEM.tmp-PROCESS.EXTENSION (write_atomically), .STEM.movie-PROCESS.ogv
+/// (MovieWriter).
 bool is_temporary_file(const std::string& name) {
-  static const std::regex pattern(R"(\.(.+)\.tmp-\d+(\.\w+)?)");
+  static const std::regex pattern(R"(\.(.+)\.(?:tmp|movie)-\d+(\.\w+)?)");
   std::smatch parts;
   return std::regex_match(name, parts, pattern) && is_run_file(parts[1].str() + parts[2].str());
 }
