@@ -9,8 +9,8 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double station_height = 10;      // m
-constexpr double scales_per_length = 12;   // lateral scale of the waves as a share of the gusts' integral length
-constexpr double front_slope = 0.5;        // how far fronts lean from straight: metres downwind per metre across
+constexpr double scales_per_length = 8;    // lateral scale of the waves as a share of the gusts' integral length
+constexpr double front_slope = 0.35;       // how far fronts lean from straight: metres downwind per metre across
 constexpr double flutter_share = 0.15;     // of the mean bend
 constexpr double largest_flutter = 0.05;   // radians
 constexpr double largest_wind_bend = 1.5;  // radians, as in kernels/shared/grass_bend.h
@@ -64,11 +64,11 @@ glm::dvec2 grass_bend(const GrassWind& wind, const ModalSeries& response, const 
   const glm::dvec2 downwind(wind.direction_x, wind.direction_y), left(-downwind.y, downwind.x);
   const double a = glm::dot(blade.position, downwind) / wind.lateral_scale;
   const double c = glm::dot(blade.position, left) / wind.lateral_scale;
-  const double delay = wind.lateral_delay * (std::sin(c + 0.2 * a) + 0.5 * std::sin(2.3 * c - 0.15 * a + 1.3));
+  const double delay = wind.lateral_delay * (std::sin(c + 0.3 * a) + 0.5 * std::sin(1.7 * c - 0.25 * a + 1.3));
   const double sample =
       wind.sample_time - wind.series_rate * (wind.slowness * glm::dot(blade.position, downwind) + delay);
-  const glm::dvec2 gust = std::cos(0.35 * c) * fluctuation(response, sample) +
-                          std::sin(0.35 * c) * fluctuation(response, sample + 0.5 * wind.series_count);
+  const glm::dvec2 gust = std::cos(0.5 * c) * fluctuation(response, sample) +
+                          std::sin(0.5 * c) * fluctuation(response, sample + 0.5 * wind.series_count);
   const glm::dvec2 flutter =
       static_cast<double>(wind.flutter_amplitude) *
       glm::dvec2(std::sin(wind.flutter_phase + blade.phase), std::sin(wind.flutter_phase + 3 * blade.phase));

@@ -1,8 +1,8 @@
 // The wind on one blade of grass: when and which gusts reach it, and the bend vector (tip angle times horizontal
 // direction, radians) that follows. With d the wind's direction, a = x.d and c = x.(left of d) of the blade's root:
-//   delay  = lateral_delay (sin(c/l + 0.2 a/l) + 1/2 sin(2.3 c/l - 0.15 a/l + 1.3)),   l = lateral_scale
+//   delay  = lateral_delay (sin(c/l + 0.3 a/l) + 1/2 sin(1.7 c/l - 0.25 a/l + 1.3)),   l = lateral_scale
 //   sample = sample_time - series_rate (slowness a + delay)               gusts travel downwind, their fronts are wavy
-//   gust   = cos(p) series[sample] + sin(p) series[sample + count/2],     p = 0.35 c/l
+//   gust   = cos(p) series[sample] + sin(p) series[sample + count/2],     p = 0.5 c/l
 //   wind   = flexibility (mean + gust + flutter), softly limited to 1.5 rad;      bend = rest + wind
 // Travelling waves over grass: Finnigan 1979, "Turbulence in waving wheat", Boundary-Layer Meteorology 16. Half a
 // period apart the series is independent of itself, so the mix of two keeps its variance and gusts have a finite width.
@@ -29,19 +29,19 @@ typedef struct {
 
 #define TURNS_PER_RADIAN REAL(0.15915494309189535)
 
-/// `x`, `y`: root relative to the scene's origin, m. Float keeps `sample` within 0.05 at 10 km from the origin.
+/// `x`, `y`: root relative to the scene's origin, m. In float, `sample` is within 0.1 at 10 km in wind above 1 m/s.
 SHARED GrassGust grass_gust(const GrassWind wind, real x, real y) {
   const real dx = (real)(wind.direction_x), dy = (real)(wind.direction_y);
   const real along = x * dx + y * dy, cross = y * dx - x * dy;
   const real turns = TURNS_PER_RADIAN / (real)(wind.lateral_scale);
   const real a = along * turns, c = cross * turns;
-  const real wave = sine_of_turns(c + REAL(0.2) * a) +
-                    REAL(0.5) * sine_of_turns(REAL(2.3) * c - REAL(0.15) * a + REAL(0.20690142601946396));
+  const real wave = sine_of_turns(c + REAL(0.3) * a) +
+                    REAL(0.5) * sine_of_turns(REAL(1.7) * c - REAL(0.25) * a + REAL(0.20690142601946396));
   const real delay = (real)(wind.slowness) * along + (real)(wind.lateral_delay) * wave;
   GrassGust gust;
   gust.sample = (real)(wind.sample_time) - (real)(wind.series_rate) * delay;
-  gust.first_share = sine_of_turns(REAL(0.35) * c + REAL(0.25));
-  gust.second_share = sine_of_turns(REAL(0.35) * c);
+  gust.first_share = sine_of_turns(REAL(0.5) * c + REAL(0.25));
+  gust.second_share = sine_of_turns(REAL(0.5) * c);
   return gust;
 }
 
