@@ -49,28 +49,39 @@ Limb limb_of_stem(const Stem& stem, double mean_slenderness, Random random) {
   return limb;
 }
 
+/// Where rings stand along a stem, as shares of its length: at its points, and closer at a flared foot.
+std::vector<double> ring_shares(const Stem& stem, double flare) {
+  std::vector<double> shares{0};
+  if (flare > 0) shares.insert(shares.end(), {0.012, 0.025, 0.05});
+  const std::size_t segments = stem.points.size() - 1;
+  for (std::size_t i = 1; i < segments; ++i) shares.push_back(static_cast<double>(i) / static_cast<double>(segments));
+  return shares;
+}
+
 /// Rings of `sides` vertices along the stem, carried along without twist, closed by a point at the tip.
-void add_tube(LimbMesh& mesh, const Stem& stem, int sides, std::uint32_t limb) {
+/// `flare`: share by which the foot is thicker; it fades over 2 % of the length.
+void add_tube(LimbMesh& mesh, const Stem& stem, int sides, double flare, std::uint32_t limb) {
   std::vector<std::uint32_t>& triangles = mesh.triangles[SurfaceClass::wood];
   const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size()), n = static_cast<std::uint32_t>(sides);
-  const std::size_t rings = stem.points.size() - 1;
-  glm::dvec3 side = across(glm::normalize(stem.points[1] - stem.points[0]))[0];
-  for (std::size_t ring = 0; ring < rings; ++ring) {
-    const glm::dvec3 before = stem.points[ring] - stem.points[ring == 0 ? 0 : ring - 1];
-    const glm::dvec3 tangent = glm::normalize(before + stem.points[ring + 1] - stem.points[ring]);
+  const std::vector<double> shares = ring_shares(stem, flare);
+  const double step = 0.25 / static_cast<double>(stem.points.size() - 1);  // rings at kinks halve the angle
+  glm::dvec3 side = across(stem.tangent(0))[0];
+  for (double share : shares) {
+    const glm::dvec3 tangent = glm::normalize(stem.tangent(share - step) + stem.tangent(share + step));
     side = glm::normalize(side - glm::dot(side, tangent) * tangent);
     const glm::dvec3 other = glm::cross(tangent, side);
+    const double radius = stem.radius(share) * (1 + flare * std::exp(-share / 0.02));
     for (int corner = 0; corner < sides; ++corner) {
       const double turn = 2 * std::numbers::pi * corner / sides;
       const glm::dvec3 out = std::cos(turn) * side + std::sin(turn) * other;
-      mesh.add_vertex(glm::vec3(stem.points[ring] + stem.radii[ring] * out), limb);
+      mesh.add_vertex(glm::vec3(stem.position(share) + radius * out), limb);
     }
   }
   const std::uint32_t tip = mesh.add_vertex(glm::vec3(stem.points.back()), limb);
-  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+  for (std::uint32_t ring = 0; ring < shares.size(); ++ring) {
     for (std::uint32_t corner = 0; corner < n; ++corner) {
       const std::uint32_t a = first + ring * n + corner, b = first + ring * n + (corner + 1) % n;
-      if (ring + 1 == rings) {
+      if (ring + 1 == shares.size()) {
         triangles.insert(triangles.end(), {a, b, tip});
       } else {
         triangles.insert(triangles.end(), {a, b, b + n, a, b + n, a + n});
@@ -154,7 +165,8 @@ std::vector<std::uint32_t> make_limbs(LimbMesh& mesh, const GrowthTraits& traits
 void add_wood(LimbMesh& mesh, const GrowthTraits& traits, const std::vector<Stem>& stems,
               const std::vector<std::uint32_t>& limb) {
   for (std::size_t i = 0; i < stems.size(); ++i) {
-    add_tube(mesh, stems[i], traits.levels[static_cast<std::size_t>(stems[i].level)].sides, limb[i]);
+    const StemTraits& level = traits.levels[static_cast<std::size_t>(stems[i].level)];
+    add_tube(mesh, stems[i], level.sides, stems[i].level == 0 ? traits.root_flare : 0, limb[i]);
   }
 }
 

@@ -12,12 +12,12 @@
 namespace understory {
 namespace {
 
-constexpr std::size_t most_limbs = 384;
+constexpr std::uint32_t most_limbs = 384;
 constexpr float shortest_limb = 0.05f;       // share of the mesh's height
 constexpr float shortest_trunk = 0.3f;       // below this the wood is in pieces that tell nothing of its growth
 constexpr float ground_layer = 0.05f;        // share of the height: what starts here may stand on its own
 constexpr float joint = 0.02f;               // share of the height: wood this near touches
-constexpr float sample_spacing = 0.006f;     // share of the height
+constexpr float sample_spacing = 0.01f;     // share of the height
 constexpr float largest_flutter_arm = 0.5f;  // m: a canopy in one piece does not flap as one leaf
 constexpr double largest_delay = 1.2;        // s, about a period of branch sway
 constexpr float leafy_mat_flexibility = 0.3f;
@@ -79,17 +79,18 @@ Wood find_wood(const FlatMesh& flat) {
   return wood;
 }
 
-/// Points all over the wood, labelled with the rank of their piece: long thin triangles have no vertex where a twig
-/// leaves them.
-NearestPoints sample_wood(const FlatMesh& flat, const Wood& wood) {
+/// Points all over the wood of ranks below `rank_limit`, labelled with their piece's rank: long thin triangles have no
+/// vertex where a twig leaves them.
+NearestPoints sample_wood(const FlatMesh& flat, const Wood& wood, std::uint32_t rank_limit) {
   const float spacing = sample_spacing * flat.height();
   std::vector<NearestPoints::Point> samples;
   for (std::size_t i = 0; i + 2 < flat.wood.size(); i += 3) {
     const glm::vec3 a = flat.positions[flat.wood[i]], b = flat.positions[flat.wood[i + 1]],
                     c = flat.positions[flat.wood[i + 2]];
+    const std::uint32_t label = wood.rank[wood.pieces.of_vertex[flat.wood[i]]];
+    if (label >= rank_limit) continue;
     const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
     const int steps = std::clamp(static_cast<int>(longest / spacing), 1, 64);
-    const std::uint32_t label = wood.rank[wood.pieces.of_vertex[flat.wood[i]]];
     for (int u = 0; u < steps; ++u) {
       for (int v = 0; u + v < steps; ++v) {
         const float s = static_cast<float>(u) / static_cast<float>(steps);
@@ -108,25 +109,29 @@ struct Growth {
   std::uint32_t parent_rank = 0;
 };
 
-Growth find_growth(const FlatMesh& flat, const StemPiece& stem, std::uint32_t rank, const NearestPoints& samples) {
-  const NearestPoints::Hit hits[2] = {samples.nearest(stem.ends[0].middle, rank),
-                                      samples.nearest(stem.ends[1].middle, rank)};
+/// Of a stem that may be a limb: it grows from a larger one.
+Growth find_growth(const FlatMesh& flat, const StemPiece& stem, std::uint32_t rank, const NearestPoints& carriers) {
+  const NearestPoints::Hit hits[2] = {carriers.nearest(stem.ends[0].middle, rank),
+                                      carriers.nearest(stem.ends[1].middle, rank)};
   const float thickness[2] = {stem.ends[0].radius, stem.ends[1].radius};
-  const bool second_is_lower = stem.ends[1].middle.z < stem.ends[0].middle.z;
-  const int lower = second_is_lower ? 1 : 0;
+  const int lower = stem.ends[1].middle.z < stem.ends[0].middle.z ? 1 : 0;
+  // Stems thin out; only cylinders leave it to what their ends touch.
+  const bool tells = std::max(thickness[0], thickness[1]) > 1.2f * std::min(thickness[0], thickness[1]);
+  const int thicker = thickness[1] > thickness[0] ? 1 : 0;
+  const int nearer = hits[1].squared_distance < hits[0].squared_distance ? 1 : 0;
   const float gap = joint * flat.height();
   Growth growth;
   growth.on_ground = rank == 0 || (stem.ends[lower].middle.z < flat.low.z + ground_layer * flat.height() &&
-                                   hits[lower].squared_distance > gap * gap);
-  if (growth.on_ground) {
-    growth.from_second_end = second_is_lower;
-    return growth;
-  }
-  // Stems thin out; only cylinders leave it to what their ends touch.
-  const bool tells = std::max(thickness[0], thickness[1]) > 1.2f * std::min(thickness[0], thickness[1]);
-  growth.from_second_end = tells ? thickness[1] > thickness[0] : hits[1].squared_distance < hits[0].squared_distance;
+                                   hits[lower].squared_distance > gap * gap && !(tells && thicker != lower));
+  growth.from_second_end = (growth.on_ground ? lower : tells ? thicker : nearer) == 1;
   growth.parent_rank = hits[growth.from_second_end ? 1 : 0].point.label;
   return growth;
+}
+
+/// The rank that carries a piece too small for a limb.
+std::uint32_t nearest_carrier(const StemPiece& stem, const NearestPoints& carriers) {
+  const NearestPoints::Hit one = carriers.nearest(stem.ends[0].middle), other = carriers.nearest(stem.ends[1].middle);
+  return one.squared_distance <= other.squared_distance ? one.point.label : other.point.label;
 }
 
 float slenderness(const StemPiece& stem) {
@@ -146,34 +151,38 @@ Limb limb_of_stem(const StemPiece& stem, const Growth& growth, float flexibility
   return limb;
 }
 
-/// Limbs from the larger stems; returns the limb of every piece of wood.
-std::vector<std::uint32_t> limbs_of_wood(LimbMesh& mesh, const FlatMesh& flat, const Wood& wood,
-                                         const NearestPoints& samples, std::uint64_t seed) {
-  const std::size_t count = wood.stems.size();
-  std::size_t limbs = 0;
-  while (limbs < std::min(count, most_limbs) &&
-         wood.stems[wood.by_extent[limbs]].extent > shortest_limb * flat.height()) {
-    ++limbs;
+/// Limbs from the larger stems; returns the limb of every rank.
+std::vector<std::uint32_t> limbs_of_wood(LimbMesh& mesh, const FlatMesh& flat, const Wood& wood, std::uint64_t seed) {
+  const auto stem_of_rank = [&](std::size_t r) -> const StemPiece& { return wood.stems[wood.by_extent[r]]; };
+  std::uint32_t carrier_count = 0;
+  while (carrier_count < wood.stems.size() && stem_of_rank(carrier_count).extent > shortest_limb * flat.height()) {
+    ++carrier_count;
   }
+  const NearestPoints carriers = sample_wood(flat, wood, carrier_count);
+  const std::uint32_t limb_count = std::min(carrier_count, most_limbs);
   float mean_slenderness = 0;
-  for (std::size_t r = 0; r < limbs; ++r) {
-    mean_slenderness += slenderness(wood.stems[wood.by_extent[r]]) / static_cast<float>(limbs);
+  for (std::uint32_t r = 0; r < limb_count; ++r) {
+    mean_slenderness += slenderness(stem_of_rank(r)) / static_cast<float>(limb_count);
   }
-  std::vector<std::uint32_t> limb_of_rank(count), limb_of_piece(count);
-  for (std::uint32_t r = 0; r < count; ++r) {
-    const StemPiece& stem = wood.stems[wood.by_extent[r]];
-    const Growth growth = find_growth(flat, stem, r, samples);
-    if (r < limbs) {
-      limb_of_rank[r] = r;
-      mesh.limbs.push_back(
-          limb_of_stem(stem, growth, slenderness(stem) / mean_slenderness, Random(seed, stream_of("limb"), r)));
-      if (!growth.on_ground) mesh.limbs.back().parent = static_cast<std::int32_t>(limb_of_rank[growth.parent_rank]);
-    } else {
-      limb_of_rank[r] = limb_of_rank[growth.parent_rank];
+
+  std::vector<std::uint32_t> limb_of_rank(wood.stems.size());
+  for (std::uint32_t r = 0; r < wood.stems.size(); ++r) {
+    if (r >= carrier_count) {
+      limb_of_rank[r] = limb_of_rank[nearest_carrier(stem_of_rank(r), carriers)];
+      continue;
     }
-    limb_of_piece[wood.by_extent[r]] = limb_of_rank[r];
+    const Growth growth = find_growth(flat, stem_of_rank(r), r, carriers);
+    const std::int32_t parent = growth.on_ground ? -1 : static_cast<std::int32_t>(limb_of_rank[growth.parent_rank]);
+    if (r >= limb_count && parent >= 0) {
+      limb_of_rank[r] = static_cast<std::uint32_t>(parent);
+      continue;
+    }
+    limb_of_rank[r] = static_cast<std::uint32_t>(mesh.limbs.size());
+    const float flexibility = slenderness(stem_of_rank(r)) / mean_slenderness;
+    mesh.limbs.push_back(limb_of_stem(stem_of_rank(r), growth, flexibility, Random(seed, stream_of("limb"), r)));
+    mesh.limbs.back().parent = parent;
   }
-  return limb_of_piece;
+  return limb_of_rank;
 }
 
 /// One upright trunk that carries everything.
@@ -248,20 +257,19 @@ LimbMesh limbs_from_mesh(const RawMesh& plant, std::uint64_t seed) {
   }
 
   const Wood wood = find_wood(flat);
-  const NearestPoints samples = sample_wood(flat, wood);
-  std::vector<std::uint32_t> limb_of_piece(wood.stems.size(), 0);
+  std::vector<std::uint32_t> limb_of_rank(wood.stems.size(), 0);
   if (wood.stems[wood.by_extent[0]].extent > shortest_trunk * flat.height()) {
-    limb_of_piece = limbs_of_wood(mesh, flat, wood, samples, seed);
+    limb_of_rank = limbs_of_wood(mesh, flat, wood, seed);
   } else {
     mesh.limbs.push_back(single_trunk(flat));
   }
-  for (std::size_t i = 0; i < wood.pieces.vertices.size(); ++i) {
-    const std::uint32_t vertex = wood.pieces.vertices[i];
-    mesh.limb[vertex] = limb_of_piece[wood.pieces.of_vertex[vertex]];
+  for (std::uint32_t vertex : wood.pieces.vertices) {
+    mesh.limb[vertex] = limb_of_rank[wood.rank[wood.pieces.of_vertex[vertex]]];
   }
-  std::vector<std::uint32_t> limb_of_rank(wood.stems.size());
-  for (std::size_t r = 0; r < limb_of_rank.size(); ++r) limb_of_rank[r] = limb_of_piece[wood.by_extent[r]];
-  attach_foliage(mesh, flat, &samples, limb_of_rank, seed);
+  if (!flat.foliage.empty()) {
+    const NearestPoints all_wood = sample_wood(flat, wood, no_piece);
+    attach_foliage(mesh, flat, &all_wood, limb_of_rank, seed);
+  }
   return mesh;
 }
 

@@ -9,7 +9,8 @@
 namespace understory {
 namespace {
 
-constexpr double buried = 0.012;  // share of the height that a trunk reaches below ground, so that slopes show no gap
+constexpr double buried = 0.012;    // share of the height that a trunk reaches below ground, so that slopes show no gap
+constexpr double clearance = 0.04;  // share of the height: twigs stay above it
 constexpr glm::dvec3 up{0, 0, 1};
 
 struct Segment {
@@ -31,7 +32,9 @@ double outline_at(const GrowthTraits& traits, double share) {
 }
 
 /// The stem's axis as a chain of equal segments, bent by tropism and by chance.
-void grow_axis(Stem& stem, const StemTraits& traits, glm::dvec3 base, glm::dvec3 direction, Random& random) {
+/// Branches turn up before they come below `ground_clearance`, m.
+void grow_axis(Stem& stem, const StemTraits& traits, glm::dvec3 base, glm::dvec3 direction, double ground_clearance,
+               Random& random) {
   const double step = stem.length / traits.segments;
   stem.points.push_back(base);
   for (int i = 0; i < traits.segments; ++i) {
@@ -44,16 +47,18 @@ void grow_axis(Stem& stem, const StemTraits& traits, glm::dvec3 base, glm::dvec3
       direction += tropism * (up - glm::dot(up, direction) * direction) + sideways * side + upright * other;
       direction = glm::normalize(direction);
     }
+    if (stem.level > 0 && base.z + step * direction.z < ground_clearance) {
+      direction = glm::normalize(glm::dvec3(direction.x, direction.y, 0.3 * std::abs(direction.z)));
+    }
     base += step * direction;
     stem.points.push_back(base);
   }
 }
 
-void set_radii(Stem& stem, const StemTraits& traits, double base_radius, double flare) {
+void set_radii(Stem& stem, const StemTraits& traits, double base_radius) {
   for (std::size_t i = 0; i < stem.points.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(stem.points.size() - 1);
-    const double swelling = 1 + flare * std::exp(-share / 0.03);  // roots end at about 3 % of the trunk
-    stem.radii.push_back(base_radius * std::pow(1 - share, traits.taper) * swelling);
+    stem.radii.push_back(base_radius * std::pow(1 - share, traits.taper));
   }
 }
 
@@ -67,8 +72,8 @@ Stem grow_trunk(const GrowthTraits& traits, int ordinal, Random& random) {
   const double outward = single ? 0 : std::sqrt((ordinal + 0.5) / level.per_node);
   const glm::dvec3 direction = single ? up : tilted(up, level.angle_base * outward, turn);
   const glm::dvec3 root = single ? glm::dvec3(0) : 0.035 * traits.height * tilted(up, std::numbers::pi / 2, turn);
-  grow_axis(stem, level, outward * root - buried * traits.height * up, direction, random);
-  set_radii(stem, level, stem.length * level.slenderness, traits.root_flare);
+  grow_axis(stem, level, outward * root - buried * traits.height * up, direction, 0, random);
+  set_radii(stem, level, stem.length * level.slenderness);
   return stem;
 }
 
@@ -86,8 +91,9 @@ Stem grow_child(const GrowthTraits& traits, const std::vector<Stem>& stems, std:
                                  : carrier.length * (1 - 0.6 * share));  // Weber & Penn 1995, section 4.3
   const double angle =
       std::lerp(level.angle_base, level.angle_tip, bearing) + random.uniform(-1, 1) * level.angle_spread;
-  grow_axis(stem, level, carrier.position(share), tilted(carrier.tangent(share), angle, turn), random);
-  set_radii(stem, level, std::min(stem.length * level.slenderness, 0.8 * carrier.radius(share)), 0);
+  grow_axis(stem, level, carrier.position(share), tilted(carrier.tangent(share), angle, turn),
+            clearance * traits.height, random);
+  set_radii(stem, level, std::min(stem.length * level.slenderness, 0.8 * carrier.radius(share)));
   return stem;
 }
 
