@@ -120,11 +120,11 @@ void keys(Archive& a, WindSource& wind) {
   a.number("roughness", wind.roughness_length, above_zero(10, "m"), "roughness length z0 of the log profile");
   a.number("displacement", wind.displacement_height, zero_to(100, "m"), "displacement height d of the log profile");
   a.number("turbulence", wind.turbulence_intensity, zero_to(2), "sigma_u / speed of the gusts");
-  a.number("length_scale", wind.length_scale, above_zero(10000, "m"), "integral length of the gusts along the wind");
+  a.number("length_scale", wind.length_scale, {0.1, 10000, "m"}, "integral length of the gusts along the wind");
   a.file("record", wind.record, "measured series instead: CSV with columns u_ms and v_ms in m/s");
   a.number("record_height", wind.record_height, above_zero(1000, "m"), "height above ground of `record`");
   a.goes_with("record", {"record_height"});
-  a.excludes("record", {"speed", "height", "turbulence", "length_scale"});
+  a.excludes("record", {"speed", "height", "turbulence"});
   const double top = wind.displacement_height + wind.roughness_length;
   a.check(!wind.record.empty() || wind.reference_height > top, "height", "above displacement + roughness");
   a.check(wind.record.empty() || wind.record_height > top, "record_height", "above displacement + roughness");
