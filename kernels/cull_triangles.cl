@@ -39,14 +39,14 @@ static inline BYTES coverage(const CameraView* camera, ProjectedCorners a, Proje
   const truth covers = holds_centre(low_x, high_x, camera->centre_x - 0.5f, camera->width) &
                        holds_centre(low_y, high_y, camera->centre_y - 0.5f, camera->height);
   const truth ahead = max(a.z, max(b.z, c.z)) > near_plane;
-  const truth unclipped = (min(a.z, min(b.z, c.z)) > near_plane) & (max(-low_x, high_x) < guard) &
-                          (max(-low_y, high_y) < guard);
+  const truth unclipped =
+      (min(a.z, min(b.z, c.z)) > near_plane) & (max(-low_x, high_x) < guard) & (max(-low_y, high_y) < guard);
   return TO_BYTES(PICK(ahead & unclipped & covers, (whole)(1), PICK(ahead & !unclipped, (whole)(2), (whole)(0))));
 }
 
 kernel void cull_mesh(global const TriangleChunk* chunks, global const uint* index_a, global const uint* index_b,
-                      global const uint* index_c, global const float* x, global const float* y,
-                      global const float* z, const CameraView camera, global uchar* marks) {
+                      global const uint* index_c, global const float* x, global const float* y, global const float* z,
+                      const CameraView camera, global uchar* marks) {
   global const TriangleChunk* chunk = chunks + get_group_id(0);
   const uint lane = get_local_id(0) * W;
   const uint t = chunk->first_index + lane;

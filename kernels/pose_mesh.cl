@@ -6,8 +6,8 @@
 
 kernel void pose_mesh(global const float* rest_x, global const float* rest_y, global const float* rest_z,
                       global const char* flutter_x, global const char* flutter_y, global const char* flutter_z,
-                      global const uchar* flutter_phase, global const PosedBlock* blocks,
-                      global const LimbPose* limbs, global float* x, global float* y, global float* z, uint items) {
+                      global const uchar* flutter_phase, global const PosedBlock* blocks, global const LimbPose* limbs,
+                      global float* x, global float* y, global float* z, uint items) {
   const size_t i = get_global_id(0);
   if (i >= items) return;
   const uint per_block = 16 / W;

@@ -1,6 +1,6 @@
 // Scan-converts the marked triangles into the visibility buffer. Corners snap to 1/256 pixel and edges are exact
-// integers, inclusive: neighbours that share an edge leave no crack. Perspective-correct depth (1/z is linear on screen).
-// One work-item per TRIANGLES_PER_ITEM consecutive triangles.
+// integers, inclusive: neighbours that share an edge leave no crack. Perspective-correct depth (1/z is linear on
+// screen). One work-item per TRIANGLES_PER_ITEM consecutive triangles.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/camera.h"
 #include "kernels/shared/guard_band.h"
@@ -28,7 +28,7 @@ static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >
 static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
 
 static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, uint triangle,
-                  global VisibleTriangle* pixels) {
+                                global VisibleTriangle* pixels) {
   const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
   const int right = min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1);
   const int top = max(first_centre(min(a.y, min(b.y, c.y))), 0);
@@ -72,7 +72,7 @@ static inline void scan_convert(const CameraView* camera, ScreenCorner a, Screen
 }
 
 static inline void rasterise(const CameraView* camera, Corners corners, global const float* x, global const float* y,
-               global const float* z, uchar mark, uint triangle, global VisibleTriangle* pixels) {
+                             global const float* z, uchar mark, uint triangle, global VisibleTriangle* pixels) {
   ViewPoint polygon[CLIPPED_CORNERS];
   polygon[0] = view_point(camera, x[corners.a], y[corners.a], z[corners.a]);
   polygon[1] = view_point(camera, x[corners.b], y[corners.b], z[corners.b]);
@@ -95,8 +95,8 @@ kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
 
 kernel void rasterise_mesh(global const uchar* marks, uint triangles, global const TriangleChunk* chunks,
                            global const uint* index_a, global const uint* index_b, global const uint* index_c,
-                           global const float* x, global const float* y, global const float* z,
-                           const CameraView camera, global VisibleTriangle* pixels) {
+                           global const float* x, global const float* y, global const float* z, const CameraView camera,
+                           global VisibleTriangle* pixels) {
   const uint begin = get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, triangles);
   for (uint t = begin; t < end; ++t)
     if (marks[t])
@@ -104,9 +104,9 @@ kernel void rasterise_mesh(global const uchar* marks, uint triangles, global con
                 pixels);
 }
 
-kernel void rasterise_grass(global const uchar* marks, uint first, uint end_triangle, global const TriangleChunk* chunks,
-                            global const float* x, global const float* y, global const float* z,
-                            const CameraView camera, global VisibleTriangle* pixels) {
+kernel void rasterise_grass(global const uchar* marks, uint first, uint end_triangle,
+                            global const TriangleChunk* chunks, global const float* x, global const float* y,
+                            global const float* z, const CameraView camera, global VisibleTriangle* pixels) {
   const uint begin = first + get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, end_triangle);
   for (uint t = begin; t < end; ++t)
     if (marks[t]) rasterise(&camera, grass_corners(chunks + t / CHUNK, t % CHUNK), x, y, z, marks[t], t, pixels);

@@ -52,9 +52,9 @@ std::vector<PrototypeStart> upload_prototypes(Device& device, const World& world
       for (std::vector<std::uint32_t>* index : {&a, &b, &c}) index->resize(padded, 0);  // no area, no pixels
     }
   }
-  geometry.rest = {upload(device, all.x, "rest vertices"),         upload(device, all.y, "rest vertices"),
-                   upload(device, all.z, "rest vertices"),         upload(device, all.flutter_x, "leaf flutter"),
-                   upload(device, all.flutter_y, "leaf flutter"),  upload(device, all.flutter_z, "leaf flutter"),
+  geometry.rest = {upload(device, all.x, "rest vertices"),           upload(device, all.y, "rest vertices"),
+                   upload(device, all.z, "rest vertices"),           upload(device, all.flutter_x, "leaf flutter"),
+                   upload(device, all.flutter_y, "leaf flutter"),    upload(device, all.flutter_z, "leaf flutter"),
                    upload(device, all.flutter_phase, "leaf flutter")};
   geometry.triangles.index_a = upload(device, a, "triangle corners");
   geometry.triangles.index_b = upload(device, b, "triangle corners");
@@ -71,8 +71,8 @@ void lay_out_instances(const World& world, const std::vector<PrototypeStart>& st
     const PrototypeStart& start = starts[instance.prototype];
     const auto first_vertex = static_cast<std::uint32_t>(blocks.size() * vertex_block);
     for (std::size_t block = 0; block < prototype.vertices.block_limb.size(); ++block)
-      blocks.push_back({start.block + static_cast<std::uint32_t>(block),
-                        limb_starts[i] + prototype.vertices.block_limb[block]});
+      blocks.push_back(
+          {start.block + static_cast<std::uint32_t>(block), limb_starts[i] + prototype.vertices.block_limb[block]});
     for (std::size_t run = 0; run < prototype.runs.size(); ++run)
       for (std::uint32_t done = 0; done < prototype.runs[run].count; done += triangles_per_chunk)
         geometry.chunks.push_back({first_vertex, start.run_triangle[run] + done,
@@ -113,21 +113,24 @@ void upload_blades(Device& device, const World& world, Geometry& geometry) {
       facing_y.push_back(std::sin(azimuth));
     }
     for (std::uint32_t group = 0; group < groups; ++group) {
-      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(blades_per_group, field.size() - group * blades_per_group));
+      const auto count =
+          static_cast<std::uint32_t>(std::min<std::size_t>(blades_per_group, field.size() - group * blades_per_group));
       const std::uint32_t group_vertex = vertex + group * blades_per_group * vertices_per_blade;
       for (std::uint32_t k = 0; k < triangles_per_blade; ++k)
-        geometry.chunks.push_back({group_vertex + k * blades_per_group, first_blade + group * blades_per_group, count, field.owner});
+        geometry.chunks.push_back(
+            {group_vertex + k * blades_per_group, first_blade + group * blades_per_group, count, field.owner});
     }
     vertex += static_cast<std::uint32_t>(padded * vertices_per_blade);
   }
   geometry.triangles.grass_chunks = static_cast<std::uint32_t>(geometry.chunks.size()) - geometry.triangles.mesh_chunks;
   geometry.vertices = vertex;
-  geometry.blades = {upload(device, all.root_x, "grass roots"),       upload(device, all.root_y, "grass roots"),
-                     upload(device, all.root_z, "grass roots"),       upload(device, all.length, "grass lengths"),
-                     upload(device, all.half_width, "grass widths"),  upload(device, all.bend_x, "grass bend"),
-                     upload(device, all.bend_y, "grass bend"),        upload(device, facing_x, "grass facing"),
-                     upload(device, facing_y, "grass facing"),        upload(device, all.flexibility, "grass flexibility"),
-                     upload(device, all.phase, "grass phase")};
+  geometry.blades = {
+      upload(device, all.root_x, "grass roots"),      upload(device, all.root_y, "grass roots"),
+      upload(device, all.root_z, "grass roots"),      upload(device, all.length, "grass lengths"),
+      upload(device, all.half_width, "grass widths"), upload(device, all.bend_x, "grass bend"),
+      upload(device, all.bend_y, "grass bend"),       upload(device, facing_x, "grass facing"),
+      upload(device, facing_y, "grass facing"),       upload(device, all.flexibility, "grass flexibility"),
+      upload(device, all.phase, "grass phase")};
 }
 
 /// Ids and vertex numbers are 32-bit on the device: refuse before any of them can wrap.

@@ -21,8 +21,8 @@ struct Geometry {
   RestBlades blades;
   TriangleTables triangles;
   PosedVertices posed;
-  std::vector<FieldRange> fields;      // per World::grass
-  std::vector<TriangleChunk> chunks;   // host copy of triangles.chunks
+  std::vector<FieldRange> fields;                 // per World::grass
+  std::vector<TriangleChunk> chunks;              // host copy of triangles.chunks
   std::uint32_t mesh_vertices = 0, vertices = 0;  // posed, padding included
   bool has_mesh() const { return triangles.mesh_chunks > 0; }
   bool has_grass() const { return triangles.grass_chunks > 0; }

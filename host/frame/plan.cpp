@@ -17,8 +17,10 @@ struct Contents {
 Contents contents_of(const World& world) {
   Contents contents;
   contents.meshes = !world.instances.empty();
-  contents.grass = std::any_of(world.grass.begin(), world.grass.end(), [](const auto& field) { return field.size() > 0; });
-  contents.crowns = std::any_of(world.owners.begin(), world.owners.end(), [](const Owner& owner) { return owner.crown >= 0; });
+  contents.grass =
+      std::any_of(world.grass.begin(), world.grass.end(), [](const auto& field) { return field.size() > 0; });
+  contents.crowns =
+      std::any_of(world.owners.begin(), world.owners.end(), [](const Owner& owner) { return owner.crown >= 0; });
   contents.bodies_beside_crowns = world.instances.size() > 1 || contents.grass;
   contents.occluders = !world.occluder_spheres.empty();
   contents.ground_cover = world.ground_cover.columns > 0 && world.terrain != nullptr;

@@ -8,9 +8,9 @@
 namespace understory {
 
 struct PlannedPass {
-  std::string name;      // as in timings and run.json: pose_mesh, rasterise_grass, sphere-cap, combine, ...
-  std::string program;   // stem of its kernel file
-  std::string because;   // one phrase for a person
+  std::string name;     // as in timings and run.json: pose_mesh, rasterise_grass, sphere-cap, combine, ...
+  std::string program;  // stem of its kernel file
+  std::string because;  // one phrase for a person
 };
 
 struct Plan {

@@ -16,12 +16,13 @@ class FrameRunner {
   FrameRunner(Device& device, const World& world);
   ~FrameRunner();
 
-  /// Changes the visibility methods (world.scene.methods at first); programs of new methods are built, of old ones dropped.
+  /// Changes the visibility methods (world.scene.methods at first); programs of new methods are built, of old ones
+  /// dropped.
   void choose(const Methods& methods);
   const Plan& plan() const;
 
-  /// Poses, rasterises, resolves and shades one frame at world.scene.image size. `pixel_offset` in [-0.5, 0.5] shifts the
-  /// sample inside every pixel (supersampling).
+  /// Poses, rasterises, resolves and shades one frame at world.scene.image size. `pixel_offset` in [-0.5, 0.5] shifts
+  /// the sample inside every pixel (supersampling).
   Frame render(int index, double time, glm::dvec2 pixel_offset = glm::dvec2(0));
   /// The triangles of the last rendered frame.
   PosedGeometry posed_geometry() const;

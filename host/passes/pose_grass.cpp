@@ -18,9 +18,9 @@ void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const Swa
                                            std::to_string(series.size()) + " samples do not fit " +
                                            std::to_string(posed.x.size()) + " vertices and a wind of " +
                                            std::to_string(wind.series_count) + " samples");
-  kernel_.launch(blades / lanes_, blades_per_group / lanes_, rest.root_x, rest.root_y, rest.root_z, rest.length, rest.half_width,
-                 rest.bend_x, rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase, wind, series,
-                 first_blade, first_vertex, posed.x, posed.y, posed.z);
+  kernel_.launch(blades / lanes_, blades_per_group / lanes_, rest.root_x, rest.root_y, rest.root_z, rest.length,
+                 rest.half_width, rest.bend_x, rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase,
+                 wind, series, first_blade, first_vertex, posed.x, posed.y, posed.z);
 }
 
 }  // namespace understory

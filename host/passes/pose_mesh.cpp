@@ -6,7 +6,8 @@
 namespace understory {
 
 PoseMeshPass::PoseMeshPass(Device& device)
-    : lanes_(static_cast<std::size_t>(device.info().vector_width)), kernel_(device, "pose_mesh", "pose_mesh", "pose_mesh") {}
+    : lanes_(static_cast<std::size_t>(device.info().vector_width)),
+      kernel_(device, "pose_mesh", "pose_mesh", "pose_mesh") {}
 
 void PoseMeshPass::run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, const Buffer<LimbPose>& limbs,
                        PosedVertices& posed) {

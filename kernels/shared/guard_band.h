@@ -12,11 +12,16 @@
 static inline float clip_distance(const CameraView* camera, ViewPoint v, int plane) {
   const float side = v.z * (GUARD_BAND * 0.999f), x = v.x * camera->focal, y = v.y * camera->focal;
   switch (plane) {
-    case 0: return v.z - camera->near_plane;
-    case 1: return side + x;
-    case 2: return side - x;
-    case 3: return side + y;
-    default: return side - y;
+    case 0:
+      return v.z - camera->near_plane;
+    case 1:
+      return side + x;
+    case 2:
+      return side - x;
+    case 3:
+      return side + y;
+    default:
+      return side - y;
   }
 }
 

@@ -1,5 +1,6 @@
 // Where the three corners of triangle `lane` of a chunk stand in the posed vertex planes.
-// Mesh: three index planes, each run padded to whole chunks by triangles without area. Grass: 256 blades side by side, so that corner k of lane l is first + 256 k + l.
+// Mesh: three index planes, each run padded to whole chunks by triangles without area. Grass: 256 blades side by side,
+// so that corner k of lane l is first + 256 k + l.
 #ifndef UNDERSTORY_TRIANGLE_CORNERS_H
 #define UNDERSTORY_TRIANGLE_CORNERS_H
 

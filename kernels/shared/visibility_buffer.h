@@ -6,14 +6,15 @@
 
 #define NO_TRIANGLE 0xffffffffu
 
-#ifdef UNDERSTORY_ATOMIC64
+#if defined(UNDERSTORY_ATOMIC64) && !defined(NARROW_ATOMICS)
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 #pragma OPENCL EXTENSION cl_khr_int64_extended_atomics : enable
 
 typedef ulong VisibleTriangle;
 #define NOTHING_VISIBLE 0xffffffffffffffffUL
 
-static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
+static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth,
+                                  uint triangle) {
   const ulong offered = ((ulong)as_uint(depth) << 32) | triangle;
   global ulong* seen = pixels + pixel;
   if (offered < *seen) atom_min(seen, offered);  // the plain read avoids most atomics; a stale one costs only time
@@ -31,7 +32,8 @@ typedef uint VisibleTriangle;
 #define RASTER_PASS 0
 #endif
 
-static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth, uint triangle) {
+static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel, float depth,
+                                  uint triangle) {
   global uint* nearest = pixels + pixel;
 #if RASTER_PASS == 0
   const uint bits = as_uint(depth);

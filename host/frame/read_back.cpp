@@ -1,0 +1,92 @@
+#include "host/frame/read_back.hpp"
+
+#include <algorithm>
+
+namespace understory {
+namespace {
+
+template <typename T>
+std::vector<T> read_first(const Buffer<T>& buffer, std::size_t count) {
+  std::vector<T> values(count);
+  buffer.read(std::span<T>(values));
+  return values;
+}
+
+template <typename T>
+void write_first(Buffer<T>& buffer, const std::vector<T>& values) {
+  buffer.write(std::span<const T>(values));
+}
+
+Plane shifted(const Plane& values, double by) {
+  Plane moved(values.size());
+  std::transform(values.begin(), values.end(), moved.begin(), [by](float v) { return static_cast<float>(v + by); });
+  return moved;
+}
+
+}  // namespace
+
+void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
+  const std::size_t count = frame.pixels();
+  frame.owner = read_first(planes.owner, count);
+  frame.validity = read_first(planes.validity, count);
+  const Buffer<float>* positions[3] = {&planes.position_x, &planes.position_y, &planes.position_z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Plane& plane = frame.position[axis] = read_first(*positions[axis], count);
+    const double offset = eye[static_cast<int>(axis)];
+    for (std::size_t i = 0; i < count; ++i)
+      if ((frame.validity[i] & validity::background) == 0) plane[i] = static_cast<float>(plane[i] + offset);
+  }
+  frame.normal = {read_first(planes.normal_x, count), read_first(planes.normal_y, count),
+                  read_first(planes.normal_z, count)};
+  frame.depth = read_first(planes.depth, count);
+  if (planes.height_above_root.size() > 0) frame.height_above_root = read_first(planes.height_above_root, count);
+}
+
+void read_visibility(const VisibilityPasses& passes, Frame& frame) {
+  frame.visibility = read_first(passes.visibility(), frame.pixels());
+  for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_first(plane, frame.pixels());
+}
+
+FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye, bool grass) {
+  FragmentPlanes planes =
+      allocate_planes(device, static_cast<std::size_t>(frame.width), static_cast<std::size_t>(frame.height), grass);
+  write_first(planes.position_x, shifted(frame.position[0], -eye.x));
+  write_first(planes.position_y, shifted(frame.position[1], -eye.y));
+  write_first(planes.position_z, shifted(frame.position[2], -eye.z));
+  write_first(planes.normal_x, frame.normal[0]);
+  write_first(planes.normal_y, frame.normal[1]);
+  write_first(planes.normal_z, frame.normal[2]);
+  write_first(planes.depth, frame.depth);
+  write_first(planes.owner, frame.owner);
+  write_first(planes.validity, frame.validity);
+  return planes;
+}
+
+PosedGeometry read_geometry(const Geometry& geometry, glm::dvec3 eye) {
+  PosedGeometry posed;
+  if (geometry.vertices == 0) return posed;
+  const std::vector<float> planes[3] = {geometry.posed.x.read(), geometry.posed.y.read(), geometry.posed.z.read()};
+  posed.positions.reserve(3 * std::size_t{geometry.vertices});
+  for (std::size_t i = 0; i < geometry.vertices; ++i)
+    for (int axis = 0; axis < 3; ++axis) posed.positions.push_back(static_cast<float>(planes[axis][i] + eye[axis]));
+
+  const bool mesh = geometry.has_mesh();
+  const std::vector<std::uint32_t> a = mesh ? geometry.triangles.index_a.read() : std::vector<std::uint32_t>{};
+  const std::vector<std::uint32_t> b = mesh ? geometry.triangles.index_b.read() : std::vector<std::uint32_t>{};
+  const std::vector<std::uint32_t> c = mesh ? geometry.triangles.index_c.read() : std::vector<std::uint32_t>{};
+  for (std::size_t index = 0; index < geometry.chunks.size(); ++index) {
+    const TriangleChunk& chunk = geometry.chunks[index];
+    for (std::uint32_t lane = 0; lane < chunk.count; ++lane) {
+      const std::uint32_t t = chunk.first_index + lane, v = chunk.first_vertex;
+      if (index < geometry.triangles.mesh_chunks)
+        posed.triangles.insert(posed.triangles.end(), {v + a[t], v + b[t], v + c[t]});
+      else
+        posed.triangles.insert(posed.triangles.end(),
+                               {v + lane, v + triangles_per_chunk + lane, v + 2 * triangles_per_chunk + lane});
+      posed.owner.push_back(chunk.owner);
+    }
+  }
+  return posed;
+}
+
+}  // namespace understory

@@ -1,0 +1,131 @@
+#include "host/frame/runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "host/frame/camera_view.hpp"
+#include "host/frame/geometry.hpp"
+#include "host/frame/read_back.hpp"
+#include "host/frame/visibility.hpp"
+#include "host/passes/pose_grass.hpp"
+#include "host/passes/pose_mesh.hpp"
+#include "host/passes/rasterise.hpp"
+#include "host/passes/resolve.hpp"
+#include "sim/dynamics.hpp"
+#include "sim/grass_wind.hpp"
+#include "sim/pose.hpp"
+
+namespace understory {
+namespace {
+
+SwaySeries upload_series(Device& device, const ModalSeries& response) {
+  std::vector<std::array<float, 2>> pairs;
+  for (const glm::vec2 pair : interleaved(response)) pairs.push_back({pair.x, pair.y});
+  return SwaySeries(device, std::span<const std::array<float, 2>>(pairs), "grass sway series");
+}
+
+}  // namespace
+
+struct FrameRunner::Impl {
+  Impl(Device& the_device, const World& the_world);
+  void choose(const Methods& methods);
+  void draw(const Pose& pose, const CameraView& camera);
+
+  Device& device;
+  const World& world;
+  Plan plan;
+  Geometry geometry;
+  std::vector<SwaySeries> series;  // per World::grass
+  Buffer<LimbPose> limbs;
+  Buffer<std::uint8_t> marks;
+  VisibilityBuffer visible;
+  FragmentPlanes planes;
+  OwnerTables owners;
+  std::optional<PoseMeshPass> pose_mesh;
+  std::optional<PoseGrassPass> pose_grass;
+  std::optional<RasterisePass> rasterise;
+  std::optional<ResolvePass> resolve;
+  std::optional<VisibilityPasses> visibility;
+};
+
+FrameRunner::Impl::Impl(Device& the_device, const World& the_world)
+    : device(the_device), world(the_world), geometry(upload_geometry(device, world)) {
+  const auto width = static_cast<std::size_t>(world.scene.image.width);
+  const auto height = static_cast<std::size_t>(world.scene.image.height);
+  const std::size_t slots = std::size_t{geometry.triangles.chunk_count()} * triangles_per_chunk;
+  if (slots > 0) marks = Buffer<std::uint8_t>(device, slots, "triangle marks");
+  visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
+  owners = upload_owners(device, world.owners);
+  if (geometry.has_mesh()) pose_mesh.emplace(device);
+  if (geometry.has_grass()) {
+    pose_grass.emplace(device);
+    for (const ModalSeries& response : world.dynamics->grass) series.push_back(upload_series(device, response));
+  }
+  rasterise.emplace(device, geometry.has_mesh(), geometry.has_grass(), device.info().atomic64);
+  choose(world.scene.methods);
+}
+
+void FrameRunner::Impl::choose(const Methods& methods) {
+  plan = make_plan(world, methods);
+  const auto width = static_cast<std::size_t>(world.scene.image.width);
+  const auto height = static_cast<std::size_t>(world.scene.image.height);
+  const bool grass_height = plan.has("grass-height");
+  visibility.reset();  // first free the old methods' programs and planes
+  resolve.reset();
+  planes = allocate_planes(device, width, height, grass_height);
+  resolve.emplace(device, grass_height, device.info().atomic64);
+  visibility.emplace(device, &world, methods, plan, width, height);
+}
+
+void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
+  if (pose_mesh) {
+    if (limbs.size() != pose.limbs.size()) limbs = Buffer<LimbPose>(device, pose.limbs.size(), "limb poses");
+    limbs.write(pose.limbs);
+    pose_mesh->run(geometry.rest, geometry.blocks, limbs, geometry.posed);
+  }
+  for (std::size_t field = 0; field < geometry.fields.size(); ++field) {
+    const FieldRange& range = geometry.fields[field];
+    if (range.blades > 0)
+      pose_grass->run(geometry.blades, pose.grass[field], series[field], range.first_blade, range.blades,
+                      range.first_vertex, geometry.posed);
+  }
+  rasterise->run(geometry.triangles, geometry.posed, camera, marks, visible);
+  resolve->run(visible, geometry.triangles, geometry.posed, geometry.blades, camera, static_cast<float>(-pose.eye.z),
+               planes);
+}
+
+FrameRunner::FrameRunner(Device& device, const World& world) : impl_(std::make_unique<Impl>(device, world)) {}
+FrameRunner::~FrameRunner() = default;
+
+void FrameRunner::choose(const Methods& methods) { impl_->choose(methods); }
+const Plan& FrameRunner::plan() const { return impl_->plan; }
+
+Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
+  const Scene& scene = impl_->world.scene;
+  const Pose pose = pose_at(impl_->world, time, scene.camera.position);
+  impl_->device.take_pass_times();
+  impl_->draw(pose, camera_view(scene.camera, scene.image, pixel_offset));
+  impl_->visibility->run(&pose, impl_->owners, impl_->planes);
+
+  Frame frame;
+  frame.index = index;
+  frame.time = time;
+  frame.origin = scene.origin;
+  frame.width = scene.image.width;
+  frame.height = scene.image.height;
+  frame.owners = impl_->world.owners;
+  frame.world_to_camera = world_to_camera(scene.camera);
+  frame.vertical_fov = scene.camera.vertical_fov;
+  frame.near_plane = scene.camera.near_plane;
+  frame.pass_ms = impl_->device.take_pass_times();
+  read_planes(impl_->planes, pose.eye, frame);
+  read_visibility(*impl_->visibility, frame);
+  return frame;
+}
+
+PosedGeometry FrameRunner::posed_geometry() const {
+  return read_geometry(impl_->geometry, impl_->world.scene.camera.position);
+}
+
+}  // namespace understory

@@ -1,0 +1,35 @@
+// The visibility passes of a plan, on planes that are on the device already: own model, dome, spheres, combine.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include "host/frame/plan.hpp"
+#include "host/passes/planes.hpp"
+#include "sim/pose.hpp"
+
+namespace understory {
+
+class VisibilityPasses {
+ public:
+  /// Builds the programs of the plan's visibility passes and allocates their planes. `world` may be null (dome only).
+  VisibilityPasses(Device& device, const World* world, const Methods& methods, const Plan& plan, std::size_t width,
+                   std::size_t height);
+  ~VisibilityPasses();
+  VisibilityPasses(VisibilityPasses&&) noexcept;
+  VisibilityPasses& operator=(VisibilityPasses&&) noexcept;
+
+  /// Shades `planes`; `pose` is null exactly when the world is.
+  void run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes);
+
+  /// V_c, one element per padded fragment.
+  const Buffer<float>& visibility() const;
+  /// Each method's own plane, by the name users type.
+  const std::map<std::string, Buffer<float>>& terms() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace understory
