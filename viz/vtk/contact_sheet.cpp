@@ -13,7 +13,8 @@ Picture contact_sheet(const std::vector<ContactCell>& cells, int columns, int pi
   std::vector<Picture> pairs;
   int width = 1, height = 1;
   for (const ContactCell& cell : cells) {
-    pairs.push_back(side_by_side(shrink(cell.left, picture_width), shrink(cell.right, picture_width)));
+    const Picture left = shrink(cell.left, picture_width);
+    pairs.push_back(side_by_side(left, shrink(cell.right, cell.right.width * left.height / cell.right.height)));
     width = std::max(width, pairs.back().width);
     height = std::max(height, pairs.back().height);
   }

@@ -12,7 +12,8 @@ struct ContactCell {
   std::string caption;
 };
 
-/// Pairs side by side with a caption below, in rows of `columns` pairs; every picture is shrunk to `picture_width`.
+/// Pairs side by side with a caption below, in rows of `columns` pairs. Left pictures are shrunk to `picture_width`,
+/// right ones to the same height.
 Picture contact_sheet(const std::vector<ContactCell>& cells, int columns, int picture_width);
 
 }  // namespace understory
