@@ -1,0 +1,167 @@
+#include "host/frame/visibility.hpp"
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "host/frame/crown_records.hpp"
+#include "host/passes/ambient.hpp"
+#include "host/passes/combine.hpp"
+#include "host/passes/ellipsoid_cap.hpp"
+#include "host/passes/grass_height.hpp"
+#include "host/passes/open_dome.hpp"
+#include "host/passes/reeves_blau.hpp"
+#include "host/passes/solid_angle.hpp"
+#include "host/passes/sphere_cap.hpp"
+
+namespace understory {
+namespace {
+
+/// A table on the device that is rewritten every frame and grows when it must.
+template <typename T>
+class Table {
+ public:
+  void write(Device& device, const std::vector<T>& rows, const char* what) {
+    if (buffer_.size() < rows.size()) buffer_ = Buffer<T>(device, rows.size(), what);
+    if (!rows.empty()) buffer_.write(std::span<const T>(rows));
+  }
+  const Buffer<T>& buffer() const { return buffer_; }
+
+ private:
+  Buffer<T> buffer_;
+};
+
+/// One solid-angle pass, and whose spheres it takes.
+struct SphereShading {
+  SolidAnglePass pass;
+  std::string method;
+  bool crowns = false, occluders = false;
+  Table<ShadingSphere> spheres;
+};
+
+using TreePass = std::variant<SphereCapPass, EllipsoidCapPass, ReevesBlauPass>;
+
+std::optional<TreePass> tree_pass(Device& device, const Plan& plan) {
+  if (plan.has("sphere-cap")) return TreePass(std::in_place_type<SphereCapPass>, device);
+  if (plan.has("ellipsoid-cap")) return TreePass(std::in_place_type<EllipsoidCapPass>, device);
+  if (plan.has("reeves-blau")) return TreePass(std::in_place_type<ReevesBlauPass>, device);
+  return std::nullopt;
+}
+
+}  // namespace
+
+struct VisibilityPasses::Impl {
+  Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan, std::size_t padded);
+  Buffer<float>& add_term(const std::string& name) {
+    return terms.emplace(name, Buffer<float>(device, padded_fragments, name.c_str())).first->second;
+  }
+  const Buffer<float>* term(const std::string& name) const {
+    const auto found = terms.find(name);
+    return found == terms.end() ? nullptr : &found->second;
+  }
+  void run_own_models(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes);
+  void run_spheres(const Pose& pose, const OwnerTables& owners, FragmentPlanes& planes);
+  VisibilityTerms combined_terms() const;
+
+  Device& device;
+  const World* world;
+  Methods methods;
+  std::size_t padded_fragments;
+  std::map<std::string, Buffer<float>> terms;
+  Buffer<float> visibility;
+  std::optional<GroundCoverTable> cover;
+  std::optional<AmbientPass> ambient;
+  std::optional<TreePass> tree;
+  std::optional<GrassHeightPass> grass;
+  std::optional<OpenDomePass> dome;
+  std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
+  CombinePass combine;
+  Table<CrownRecord> crowns;
+};
+
+VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan,
+                             std::size_t padded)
+    : device(the_device),
+      world(the_world),
+      methods(the_methods),
+      padded_fragments(padded),
+      visibility(device, padded, "visibility"),
+      tree(tree_pass(device, plan)),
+      combine(device) {
+  if (plan.has("ambient")) {
+    cover.emplace(device, world->ground_cover);
+    ambient.emplace(device);
+    add_term("ambient");
+  }
+  if (tree) add_term(methods.tree);
+  if (plan.has("grass-height")) {
+    grass.emplace(device);
+    add_term("grass-height");
+  }
+  if (plan.has("open-dome")) {
+    dome.emplace(device);
+    add_term("open-dome");
+  }
+  for (const PlannedPass& pass : plan.passes) {
+    if (pass.program != "solid_angle") continue;
+    shadings.push_back({SolidAnglePass(device, pass.name),
+                        pass.name,
+                        pass.name == methods.crowns,
+                        pass.name == methods.occluders,
+                        {}});
+    add_term(pass.name);
+  }
+}
+
+void VisibilityPasses::Impl::run_own_models(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes) {
+  if (ambient) {
+    std::uint32_t constant_classes = 0;
+    if (methods.tree == "ambient") constant_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
+    if (methods.grass == "ambient") constant_classes |= class_bit(SurfaceClass::blade);
+    ambient->run(planes, owners, methods.ambient, constant_classes, *cover, pose->eye, terms.at("ambient"));
+  }
+  if (tree) {
+    crowns.write(device, crown_records(*pose, methods.tree), "crowns");
+    std::visit([&](auto& pass) { pass.run(planes, owners, crowns.buffer(), terms.at(methods.tree)); }, *tree);
+  }
+  if (grass) grass->run(planes, owners, terms.at("grass-height"));
+  if (dome) dome->run(planes, terms.at("open-dome"));
+}
+
+void VisibilityPasses::Impl::run_spheres(const Pose& pose, const OwnerTables& owners, FragmentPlanes& planes) {
+  for (SphereShading& shading : shadings) {
+    const std::vector<ShadingSphere> spheres = shading_spheres(pose, shading.crowns, shading.occluders);
+    shading.spheres.write(device, spheres, "shading spheres");
+    shading.pass.run(planes, owners, shading.spheres.buffer(), spheres.size(), terms.at(shading.method));
+  }
+}
+
+VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
+  VisibilityTerms all;
+  all.ambient = term("ambient");
+  all.tree = tree ? term(methods.tree) : nullptr;
+  all.grass = term("grass-height");
+  all.dome = term("open-dome");
+  for (const SphereShading& shading : shadings) (shading.crowns ? all.crowns : all.occluders) = term(shading.method);
+  // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md).
+  if (grass) all.horizon_classes = class_bit(SurfaceClass::blade);
+  return all;
+}
+
+VisibilityPasses::VisibilityPasses(Device& device, const World* world, const Methods& methods, const Plan& plan,
+                                   std::size_t width, std::size_t height)
+    : impl_(std::make_unique<Impl>(device, world, methods, plan, padded_fragment_count(width * height))) {}
+VisibilityPasses::~VisibilityPasses() = default;
+VisibilityPasses::VisibilityPasses(VisibilityPasses&&) noexcept = default;
+VisibilityPasses& VisibilityPasses::operator=(VisibilityPasses&&) noexcept = default;
+
+void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes) {
+  impl_->run_own_models(pose, owners, planes);
+  if (pose) impl_->run_spheres(*pose, owners, planes);
+  impl_->combine.run(planes, owners, impl_->combined_terms(), impl_->visibility);
+}
+
+const Buffer<float>& VisibilityPasses::visibility() const { return impl_->visibility; }
+const std::map<std::string, Buffer<float>>& VisibilityPasses::terms() const { return impl_->terms; }
+
+}  // namespace understory
