@@ -59,6 +59,10 @@ void require_size(const char* pass, const char* plane, std::size_t size, std::si
                                          " elements, " + std::to_string(expected) + " are needed");
 }
 
+void require_some(const char* pass, const char* table, std::size_t size) {
+  if (size == 0) throw Error(ErrorKind::unexpected, std::string(pass) + ": table " + table + " is empty");
+}
+
 void require_planes(const char* pass, const FragmentPlanes& planes, const Buffer<float>& out) {
   const std::size_t expected = planes.padded_fragments;
   if (expected != padded_fragment_count(planes.fragments))

@@ -42,6 +42,7 @@ struct OwnerTables {
   Buffer<std::int32_t> crown;           // row of the crown table; -1: none
   Buffer<std::int32_t> group;           // spheres of the same group do not shade it; -1: none
   Buffer<std::uint32_t> surface_class;  // value of SurfaceClass
+  std::uint32_t rows() const { return static_cast<std::uint32_t>(crown.size()); }
 };
 
 /// Uploads the columns that passes read. Throws Error(unexpected) for an empty table.
@@ -50,7 +51,16 @@ OwnerTables upload_owners(Device& device, std::span<const Owner> owners);
 /// Throws Error(unexpected) naming pass, plane and both numbers unless `size` is `expected`.
 void require_size(const char* pass, const char* plane, std::size_t size, std::size_t expected);
 
-/// Requires that the nine planes every visibility pass may read, and `out`, have `padded_fragments` elements.
+/// Throws Error(unexpected) naming pass and table when `size` is 0.
+void require_some(const char* pass, const char* table, std::size_t size);
+
+/// Requires that the eight planes every visibility pass may read, and `out`, have `padded_fragments` elements.
 void require_planes(const char* pass, const FragmentPlanes& planes, const Buffer<float>& out);
+
+/// Number of rows as kernels take it.
+template <typename T>
+std::uint32_t row_count(const Buffer<T>& table) {
+  return static_cast<std::uint32_t>(table.size());
+}
 
 }  // namespace understory

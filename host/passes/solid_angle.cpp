@@ -1,0 +1,62 @@
+#include "host/passes/solid_angle.hpp"
+
+#include <algorithm>
+
+#include "kernels/shared/fragment_tiles.h"
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+constexpr std::size_t longest_list = 256;  // spheres per tile; a tile with more tries all of them
+
+std::string share_option(const std::string& method) {
+  if (method == "solid-angle") return "-DSHARE=solid_angle";
+  if (method == "solid-angle-exact") return "-DSHARE=solid_angle_exact";
+  if (method == "solid-angle-cosine") return "-DSHARE=solid_angle_cosine";
+  throw Error(ErrorKind::unexpected,
+              "method '" + method + "' is not one of solid-angle, solid-angle-exact, solid-angle-cosine");
+}
+
+}  // namespace
+
+SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFieldError error)
+    : SolidAnglePass(device, method, error, Lanes::of_device(device)) {}
+
+SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFieldError error, Lanes lanes)
+    : device_(&device),
+      method_(method),
+      error_(error),
+      lanes_(lanes),
+      list_(device, "tile_spheres", "list_tile_spheres", method, Lanes(16).option() + " " + share_option(method)),
+      shade_(device, "solid_angle", "shade_by_spheres", method, lanes.option() + " " + share_option(method)) {}
+
+void SolidAnglePass::fit_tables(std::size_t tiles, std::size_t entries) {
+  if (tiles_.size() < tiles) tiles_ = Buffer<TileOcclusion>(*device_, tiles, "tile occlusion");
+  if (lists_.size() < entries) lists_ = Buffer<std::uint32_t>(*device_, entries, "sphere lists");
+}
+
+void SolidAnglePass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<ShadingSphere>& spheres,
+                         std::size_t sphere_count, Buffer<float>& visibility) {
+  require_planes(method_.c_str(), planes, visibility);
+  require_some(method_.c_str(), "spheres", spheres.size());
+  if (sphere_count > spheres.size())
+    throw Error(ErrorKind::unexpected, method_ + ": " + std::to_string(sphere_count) +
+                                           " spheres asked for, the buffer holds " + std::to_string(spheres.size()));
+  const auto count = static_cast<std::uint32_t>(sphere_count);
+  const auto row_length = static_cast<std::uint32_t>(std::max<std::size_t>(planes.row_length, UNIT));
+  const auto units = static_cast<std::uint32_t>(planes.padded_fragments / UNIT);
+  const std::uint32_t tiles = tiles_of_units(units, row_length);
+  const auto capacity = static_cast<std::uint32_t>(std::clamp<std::size_t>(sphere_count, 1, longest_list));
+  fit_tables(tiles, static_cast<std::size_t>(tiles) * capacity);
+
+  list_.launch(tiles, 1, planes.position_x, planes.position_y, planes.position_z, planes.normal_x, planes.normal_y,
+               planes.normal_z, planes.owner, planes.validity, owners.group, owners.rows(), spheres, count, error_.each,
+               error_.total, row_length, units, tiles, tiles_, lists_, capacity);
+  const std::uint32_t items = lanes_.items(planes);
+  shade_.launch(items, lanes_.local_size(), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
+                planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(), spheres, count, tiles_,
+                lists_, capacity, row_length, items, visibility, planes.validity);
+}
+
+}  // namespace understory
