@@ -11,6 +11,8 @@ struct SpeciesSway {
   ModalSeries trunk, branch;  // tip angles at flexibility 1, radians
   ModalSeries flutter;        // how hard the leaves are driven: the wind's pressure smoothed over a second, as an angle
   double leaf_frequency = 0;  // Hz
+  /// Per limb of the prototype: the wind's pressure at its height over that at the height the series are for.
+  std::vector<double> exposure;
 };
 
 struct Dynamics {

@@ -76,13 +76,14 @@ class Posing {
 
   void pose_plant(std::size_t i) {
     const Instance& instance = world_.instances[i];
+    const LimbFrame root{about_vertical(instance.yaw), instance.position};
+    if (instance.species < 0) return pose_rigid(i, [&](std::size_t) { return root; });  // of no species: nothing sways
     const Prototype& prototype = prototype_of(i);
     const SpeciesSway& sway = world_.dynamics->species[instance.species];
     const glm::dvec2 along = world_.wind->direction();
     // A gust reaches the plant when it has travelled to it (Taylor's frozen turbulence).
     const double arrival = glm::dot(along, glm::dvec2(instance.position)) / world_.wind->convection_speed();
     const double time = pose_.time - arrival - instance.delay;
-    const LimbFrame root{about_vertical(instance.yaw), instance.position};
 
     std::vector<BentLimb> bent(prototype.limbs.size());
     for (std::size_t limb = 0; limb < bent.size(); ++limb) {
@@ -90,7 +91,8 @@ class Posing {
       const double local_time = time - rest.delay;
       glm::dvec2 response{0};
       if (rest.kind != SwayKind::rigid)
-        response = (rest.kind == SwayKind::trunk ? sway.trunk : sway.branch).at(local_time) * double(rest.flexibility);
+        response = (rest.kind == SwayKind::trunk ? sway.trunk : sway.branch).at(local_time) *
+                   (sway.exposure[limb] * double(rest.flexibility));
       const glm::dvec3 push(response.x * along.x - response.y * along.y, response.x * along.y + response.y * along.x,
                             0);
       const LimbFrame frame =
@@ -101,7 +103,7 @@ class Posing {
 
       LimbPose& record = pose_.limbs[pose_.first_limb[i] + limb];
       record = bent[limb].record(pose_.eye);
-      const double drive = glm::length(sway.flutter.at(local_time));
+      const double drive = glm::length(sway.flutter.at(local_time)) * sway.exposure[limb];
       record.flutter_amplitude = static_cast<float>(prototype.flutter_scale / 127 * std::tanh(drive / full_flutter));
       record.flutter_phase = phase_at(sway.leaf_frequency, pose_.time - instance.delay - rest.delay);
     }

@@ -42,17 +42,22 @@ SpeciesSway sway_of(const Species& species, const Wind& wind) {
   sway.branch = wind.respond(species.branch, crown_height);
   sway.flutter = wind.respond({flutter_build_up, flutter_damping, species.leaf.deflection}, crown_height);
   sway.leaf_frequency = species.leaf.frequency;
+  const double crown_speed = wind.mean_speed(crown_height);
+  for (const Limb& limb : prototype.limbs) {
+    // The trunk's series answers the load of the whole crown; a branch answers the wind where it is.
+    const double height = double(limb.base.z) + double(limb.axis.z) * double(limb.length) / 2;
+    const double share = crown_speed > 0 ? wind.mean_speed(height) / crown_speed : 1;
+    sway.exposure.push_back(limb.kind == SwayKind::branch ? share * share : 1);
+  }
   return sway;
 }
 
 CrownModel crown_model_of(const Species& species, const SpeciesSource& source) {
   CrownModel model;
-  const bool given = source.alpha_rho >= 0;
-  model.alpha_rho = given ? static_cast<float>(source.alpha_rho) : species.alpha_rho;
-  model.alpha_rho_ellipsoid = given ? static_cast<float>(source.alpha_rho) : species.alpha_rho_ellipsoid;
+  model.alpha_rho = species.alpha_rho;
+  model.alpha_rho_ellipsoid = species.alpha_rho_ellipsoid;
   model.reeves_blau_ambient = static_cast<float>(source.reeves_blau_ambient);
-  model.reeves_blau_extinction = source.reeves_blau_extinction >= 0 ? static_cast<float>(source.reeves_blau_extinction)
-                                                                    : species.reeves_blau_extinction;
+  model.reeves_blau_extinction = species.reeves_blau_extinction;
   model.opacity = species.opacity;
   return model;
 }
