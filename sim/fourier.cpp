@@ -1,3 +1,4 @@
+// kissfft in double, behind plain vectors.
 #include "sim/fourier.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The scale of the waves over grass, and the formula of kernels/shared/grass_bend.h with the C++ library's own sines.
 #include "sim/grass_wind.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Synthetic gusts: amplitudes from the spectrum, phases by chance, one inverse transform per component.
+// Measured gusts: read, turned into their mean direction, closed to a loop, resampled.
 #include "sim/gusts.hpp"
 
 #include <fmt/format.h>

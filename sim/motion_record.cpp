@@ -1,3 +1,4 @@
+// Reads rigid matrices row by row into one track per part, and interpolates between neighbours in time.
 #include "sim/motion_record.hpp"
 
 #include <fmt/format.h>

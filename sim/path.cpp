@@ -1,3 +1,4 @@
+// Cubic curves through keyframes: velocities at the keyframes from their neighbours, then each segment by itself.
 #include "sim/path.hpp"
 
 #include <fmt/format.h>

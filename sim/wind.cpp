@@ -1,3 +1,4 @@
+// Profile, source of gusts, and the oscillators that answer them: filtered once in frequency, looked up for ever after.
 #include "sim/wind.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// GDAL's CSV driver reads every cell as text; numbers and dates are parsed here, strictly, to name the cell that is
+// wrong.
 #include "sim/files/csv.hpp"
 
 #include <cpl_conv.h>
