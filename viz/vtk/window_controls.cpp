@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <vtkCommand.h>
 #include <vtkImageData.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSliderRepresentation2D.h>
@@ -46,6 +47,7 @@ vtkSliderRepresentation2D* look_of(vtkSliderWidget* slider) {
 
 vtkSmartPointer<vtkTexturedButtonRepresentation2D> faces_of(Choice choice, int width) {
   auto look = vtkSmartPointer<vtkTexturedButtonRepresentation2D>::New();
+  look->SetPlaceFactor(1);  // fill the bounds
   look->SetNumberOfStates(static_cast<int>(choice.values.size()));
   const std::size_t now = choice.at;
   for (choice.at = 0; choice.at < choice.values.size(); ++choice.at) {
@@ -67,11 +69,16 @@ vtkSmartPointer<vtkSliderRepresentation2D> time_slider(double start, double end)
   look->ShowSliderLabelOff();
   look->GetPoint1Coordinate()->SetCoordinateSystemToDisplay();
   look->GetPoint2Coordinate()->SetCoordinateSystemToDisplay();
-  look->SetTubeWidth(0.006);
-  look->SetSliderLength(0.015);
-  look->SetSliderWidth(0.018);
-  look->SetEndCapLength(0.004);
-  look->SetEndCapWidth(0.012);
+  // Lengths are shares of the area's width, widths of its height.
+  look->SetTubeWidth(0.05);
+  look->SetSliderLength(0.012);
+  look->SetSliderWidth(0.18);
+  look->SetEndCapLength(0.003);
+  look->SetEndCapWidth(0.12);
+  look->GetTubeProperty()->SetColor(0.45, 0.5, 0.47);
+  look->GetCapProperty()->SetColor(0.45, 0.5, 0.47);
+  look->GetSliderProperty()->SetColor(0.95, 0.95, 0.95);
+  look->GetSelectedProperty()->SetColor(0.6, 0.85, 0.5);
   return look;
 }
 
