@@ -17,7 +17,7 @@ constexpr float shortest_limb = 0.05f;       // share of the mesh's height
 constexpr float shortest_trunk = 0.3f;       // below this the wood is in pieces that tell nothing of its growth
 constexpr float ground_layer = 0.05f;        // share of the height: what starts here may stand on its own
 constexpr float joint = 0.02f;               // share of the height: wood this near touches
-constexpr float sample_spacing = 0.01f;     // share of the height
+constexpr float sample_spacing = 0.01f;      // share of the height
 constexpr float largest_flutter_arm = 0.5f;  // m: a canopy in one piece does not flap as one leaf
 constexpr double largest_delay = 1.2;        // s, about a period of branch sway
 constexpr float leafy_mat_flexibility = 0.3f;
@@ -115,15 +115,16 @@ Growth find_growth(const FlatMesh& flat, const StemPiece& stem, std::uint32_t ra
                                       carriers.nearest(stem.ends[1].middle, rank)};
   const float thickness[2] = {stem.ends[0].radius, stem.ends[1].radius};
   const int lower = stem.ends[1].middle.z < stem.ends[0].middle.z ? 1 : 0;
-  // Stems thin out; only cylinders leave it to what their ends touch.
-  const bool tells = std::max(thickness[0], thickness[1]) > 1.2f * std::min(thickness[0], thickness[1]);
   const int thicker = thickness[1] > thickness[0] ? 1 : 0;
   const int nearer = hits[1].squared_distance < hits[0].squared_distance ? 1 : 0;
   const float gap = joint * flat.height();
+  // Stems thin out; but a cylinder's ends tell nothing, nor does a thick end that touches no other stem.
+  const bool tells = thickness[thicker] > 1.2f * thickness[1 - thicker];
+  const bool thicker_touches = hits[thicker].squared_distance <= gap * gap;
   Growth growth;
   growth.on_ground = rank == 0 || (stem.ends[lower].middle.z < flat.low.z + ground_layer * flat.height() &&
                                    hits[lower].squared_distance > gap * gap && !(tells && thicker != lower));
-  growth.from_second_end = (growth.on_ground ? lower : tells ? thicker : nearer) == 1;
+  growth.from_second_end = (growth.on_ground ? lower : tells && thicker_touches ? thicker : nearer) == 1;
   growth.parent_rank = hits[growth.from_second_end ? 1 : 0].point.label;
   return growth;
 }
