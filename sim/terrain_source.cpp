@@ -1,6 +1,7 @@
 // From what a scene file names to the ground itself.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/files/mesh.hpp"
 #include "sim/files/raster.hpp"

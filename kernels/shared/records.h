@@ -15,14 +15,14 @@ typedef std::uint32_t record_uint;
 
 /// A limb at time t. A rest point p becomes
 ///   p += flutter * flutter_amplitude * sin(2 pi (phase/256) + flutter_phase)
-///   (s, d, n) = to_limb * (p, 1)          metres along the axis, in the bend's direction, across it
+///   (s, d, n) = to_limb * (p, 1)          rest metres along the axis, in the bend's direction, across it
 ///   f = curvature * s;  (s, d) := (s sinc(f) - d sin(f),  s (1 - cos f)/f + d cos f)     circular arc of length s
 ///   scene = to_scene * (s, d, n, 1)       camera-relative metres, world axes
 typedef struct {
   float to_limb[12];        // 3x4, row-major
   float to_scene[12];       // 3x4, row-major
   float curvature;          // 1/m
-  float flutter_amplitude;  // m per unit of snorm8 flutter (prototype's flutter_scale and instance scale included)
+  float flutter_amplitude;  // rest metres per unit of the raw flutter byte (-127..127); `to_scene` holds the plant's scale
   float flutter_phase;      // radians in [0, 2 pi)
   float padding_[5];
 } LimbPose;                 // 128 bytes

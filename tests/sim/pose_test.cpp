@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "kernels/shared/pose_blade.h"
 #include "sim/dynamics.hpp"
 #include "sim/limb_pose.hpp"
 #include "sim/random.hpp"
@@ -210,6 +211,39 @@ TEST(Pose, TheEyeIsSubtractedFromEverything) {
     EXPECT_LT(glm::distance(here.crowns[i].sphere_centre - there.crowns[i].sphere_centre, eye), 1e-5);
   for (std::size_t i = 0; i < here.spheres.size(); ++i)
     EXPECT_LT(glm::distance(here.spheres[i].centre - there.spheres[i].centre, eye), 1e-5);
+}
+
+TEST(Pose, GustsTravelDownwind) {
+  Scene scene = one_plant(small_species("birch"));
+  scene.wind.direction = 0.6;
+  const World here = build_world(scene);
+  const double distance = 35;
+  scene.plants[0].spots[0].at = distance * here.wind->direction();
+  const World downwind = build_world(scene);
+  const double travel = distance / here.wind->convection_speed();
+  const Pose now = pose_at(here, 8, {0, 0, 0}), later = pose_at(downwind, 8 + travel, {0, 0, 0});
+  ASSERT_EQ(now.limbs.size(), later.limbs.size());
+  double change = 0;
+  const Pose same_time = pose_at(downwind, 8, {0, 0, 0});
+  for (std::size_t limb = 0; limb < now.limbs.size(); ++limb) {
+    EXPECT_NEAR(now.limbs[limb].curvature, later.limbs[limb].curvature, 1e-6);
+    EXPECT_NEAR(now.limbs[limb].to_limb[0], later.limbs[limb].to_limb[0], 1e-5);
+    change = std::max(change, std::abs(double(now.limbs[limb].curvature) - same_time.limbs[limb].curvature));
+  }
+  EXPECT_GT(change, 1e-4);
+}
+
+TEST(Blade, MidlineKeepsItsLengthHoweverItBends) {
+  for (double bend : {0.0, 0.3, 1.2, 2.4}) {
+    double length = 0;
+    BladePoint last = blade_midline(0.4, 0.6 * bend, 0.8 * bend, 0);
+    for (int i = 1; i <= 1000; ++i) {
+      const BladePoint next = blade_midline(0.4, 0.6 * bend, 0.8 * bend, i / 1000.0);
+      length += std::hypot(next.x - last.x, next.y - last.y, next.z - last.z);
+      last = next;
+    }
+    EXPECT_NEAR(length, 0.4, 1e-5) << bend;
+  }
 }
 
 TEST(Pose, ExtremeWindStaysFinite) {

@@ -8,6 +8,7 @@
 #include "sim/random.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/temporary_file.hpp"
 
 namespace understory {
 namespace {
@@ -87,6 +88,25 @@ TEST(Terrain, RefusesWhatIsNoGround) {
                            Terrain::from_grid({{0, 0}, {1, 1}}, 3, 2, {1, 2});
                          }),
               testing::HasSubstr("2 heights for a grid of 3 by 2"));
+}
+
+TEST(Terrain, RasterIsPlacedByItsMiddle) {
+  const TemporaryFile file("hill.asc",
+                           "ncols 4\nnrows 3\nxllcorner 500000\nyllcorner 4000000\ncellsize 10\n"
+                           "1 2 3 4\n5 6 7 8\n9 10 11 12\n");
+  TerrainSource source;
+  source.kind = TerrainSource::Kind::raster;
+  source.file = file.path();
+  source.centre = {100, 200};
+  source.height = 0.5;
+  const Terrain terrain = read_terrain(source);
+  // Samples stand 10 m apart around the centre; the file's last row is the southernmost.
+  EXPECT_EQ(terrain.extent().low, glm::dvec2(85, 190));
+  EXPECT_EQ(terrain.extent().high, glm::dvec2(115, 210));
+  EXPECT_NEAR(terrain.height_at({85, 190}), 9.5, 1e-6);
+  EXPECT_NEAR(terrain.height_at({115, 190}), 12.5, 1e-6);
+  EXPECT_NEAR(terrain.height_at({85, 210}), 1.5, 1e-6);
+  EXPECT_NEAR(terrain.height_at({100, 200}), 7, 1e-6);  // the plane through them
 }
 
 TEST(Terrain, RealMeshGivesTheHeightsOfItsVertices) {
