@@ -7,22 +7,37 @@ kernel void copy_plane(global const float* in, global float* out, uint items) {
   if (i < items) out[i] = in[i];
 }
 
-/// The traffic of a kernel that shades fragments from position and normal, with next to no arithmetic.
-kernel void read_six_write_one(global const float* a, global const float* b, global const float* c,
-                               global const float* d, global const float* e, global const float* f,
-                               global float* out, uint items) {
+/// Planes that `read_planes` reads: -DPLANES=1 to 12.
+#ifndef PLANES
+#define PLANES 6
+#endif
+#define ADD(plane) (PLANES > plane ? p##plane[i] : 0.0f)
+
+/// The traffic of a kernel that reads PLANES planes and writes one, with next to no arithmetic.
+kernel void read_planes(global const float* p0, global const float* p1, global const float* p2, global const float* p3,
+                        global const float* p4, global const float* p5, global const float* p6, global const float* p7,
+                        global const float* p8, global const float* p9, global const float* p10,
+                        global const float* p11, global float* out, uint items) {
   const size_t i = get_global_id(0);
-  if (i < items) out[i] = a[i] + b[i] + c[i] + d[i] + e[i] + f[i];
+  if (i >= items) return;
+  out[i] = ADD(0) + ADD(1) + ADD(2) + ADD(3) + ADD(4) + ADD(5) + ADD(6) + ADD(7) + ADD(8) + ADD(9) + ADD(10) + ADD(11);
 }
 
-/// Arithmetic alone: 16 independent chains of `steps` fused multiply-adds per work-item, 32 * steps operations.
-/// x <- x / 2 + 1 converges to 2 from any start: the result shows that the work was done.
+/// Arithmetic alone: 4 chains of 16 lanes of `steps` fused multiply-adds per work-item, 128 * steps operations.
+/// x <- x / 2 + 1 goes to 2 from any start: the result shows that the work was done.
 kernel void multiply_add(global float* out, uint steps, uint items) {
   const size_t i = get_global_id(0);
   if (i >= items) return;
-  float16 x = (float16)((float)i) + (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  for (uint step = 0; step < steps; ++step) x = fma(x, (float16)(0.5f), (float16)(1.0f));
-  const float8 half_sum = x.lo + x.hi;
-  const float4 quarter_sum = half_sum.lo + half_sum.hi;
-  out[i] = (quarter_sum.x + quarter_sum.y + quarter_sum.z + quarter_sum.w) * 0.0625f;
+  const float16 half_of = (float16)(0.5f), one = (float16)(1.0f);
+  float16 a = (float16)((float)i), b = a + one, c = b + one, d = c + one;
+  for (uint step = 0; step < steps; ++step) {
+    a = fma(a, half_of, one);
+    b = fma(b, half_of, one);
+    c = fma(c, half_of, one);
+    d = fma(d, half_of, one);
+  }
+  const float16 sum = a + b + c + d;
+  const float8 eight = sum.lo + sum.hi;
+  const float4 four = eight.lo + eight.hi;
+  out[i] = (four.x + four.y + four.z + four.w) / 64.0f;
 }

@@ -1,0 +1,189 @@
+#include "bench/kernel_cases.hpp"
+
+#include <memory>
+
+#include "host/passes/combine.hpp"
+#include "host/passes/ellipsoid_cap.hpp"
+#include "host/passes/grass_height.hpp"
+#include "host/passes/open_dome.hpp"
+#include "host/passes/reeves_blau.hpp"
+#include "host/passes/solid_angle.hpp"
+#include "host/passes/sphere_cap.hpp"
+#include "kernels/shared/ellipsoid_cap.h"
+#include "kernels/shared/grass_height.h"
+#include "kernels/shared/open_dome.h"
+#include "kernels/shared/reeves_blau.h"
+#include "kernels/shared/solid_angle.h"
+#include "kernels/shared/sphere_cap.h"
+
+namespace understory {
+namespace {
+
+/// Of the kernels' float arithmetic against the same formula in double; exponents here stay below 10.
+constexpr double float_error = 1e-5;
+
+/// The crown of a fragment; null without one.
+const CrownRecord* crown_of(const BenchFragments& all, const BenchFragment& fragment) {
+  const std::int32_t row = all.owner_rows()[fragment.owner].crown;
+  return row < 0 ? nullptr : &all.crown_rows()[static_cast<std::size_t>(row)];
+}
+
+SurfaceClass class_of(const BenchFragments& all, const BenchFragment& fragment) {
+  return all.owner_rows()[fragment.owner].surface;
+}
+
+/// A method that shades fragments by their crown.
+template <typename Pass>
+KernelCase crown_case(const std::string& method, int planes_read, double flops,
+                      double (*reference)(const CrownRecord&, const BenchFragment&)) {
+  return {method,
+          planes_read,
+          2,
+          flops,
+          float_error,
+          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<Pass>(device)] {
+              pass->run(all.planes, all.owners, all.crowns, visibility);
+            };
+          },
+          [reference](const BenchFragments& all, const BenchFragment& fragment) {
+            const CrownRecord* crown = crown_of(all, fragment);
+            return crown ? reference(*crown, fragment) : 1.0;
+          }};
+}
+
+double sphere_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
+  const glm::dvec3 p = glm::dvec3(f.position) - glm::dvec3(crown.x, crown.y, crown.z), n(f.normal);
+  return sphere_cap(p.x, p.y, p.z, n.x, n.y, n.z, double(crown.radius), double(crown.alpha_rho));
+}
+
+double reeves_blau_reference(const CrownRecord& crown, const BenchFragment& f) {
+  const glm::dvec3 p = glm::dvec3(f.position) - glm::dvec3(crown.x, crown.y, crown.z);
+  return reeves_blau(p.x, p.y, p.z, double(crown.radius), double(crown.ambient), double(crown.extinction));
+}
+
+double ellipsoid_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
+  const auto row = [&](int first) {
+    return Direction{double(crown.to_unit[first]), double(crown.to_unit[first + 1]), double(crown.to_unit[first + 2])};
+  };
+  const Direction offset{double(f.position.x) - double(crown.centre_x), double(f.position.y) - double(crown.centre_y),
+                         double(f.position.z) - double(crown.centre_z)};
+  const Direction normal{double(f.normal.x), double(f.normal.y), double(f.normal.z)};
+  return ellipsoid_cap(to_unit_sphere(offset, row(0), row(4), row(8)), normal, row(0), row(4), row(8),
+                       double(crown.volume_scale), double(crown.alpha_rho));
+}
+
+using Share = double (*)(double, double, double, double, double, double, double);
+
+/// All spheres shade all fragments; `exactly`: none is approximated.
+KernelCase sphere_case(const std::string& method, Share share, double flops, bool exactly) {
+  const FarFieldError error = exactly ? FarFieldError{0, 0} : FarFieldError{};
+  return {method + (exactly ? "/each" : ""),
+          8,
+          2,
+          flops,
+          float_error + double(error.total),
+          [=](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<SolidAnglePass>(device, method, error)] {
+              pass->run(all.planes, all.owners, all.spheres, all.sphere_rows().size(), visibility);
+            };
+          },
+          [share](const BenchFragments& all, const BenchFragment& f) {
+            double v = 1;
+            for (const ShadingSphere& sphere : all.sphere_rows()) {
+              if (sphere.group == all.owner_rows()[f.owner].group) continue;
+              const glm::dvec3 d = glm::dvec3(sphere.x, sphere.y, sphere.z) - glm::dvec3(f.position), n(f.normal);
+              v *= 1 - double(sphere.opacity) * share(d.x, d.y, d.z, n.x, n.y, n.z, double(sphere.radius));
+            }
+            return v;
+          }};
+}
+
+KernelCase ambient_case() {
+  constexpr double constant = 0.6;
+  return {"ambient",
+          3,
+          1,
+          25,
+          float_error,
+          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<AmbientPass>(device)] {
+              pass->run(all.planes, all.owners, constant, class_bit(SurfaceClass::leaf), all.cover, glm::dvec3(0),
+                        visibility);
+            };
+          },
+          [](const BenchFragments& all, const BenchFragment& f) {
+            if (class_of(all, f) == SurfaceClass::leaf) return constant;
+            const bool terrain = class_of(all, f) == SurfaceClass::terrain;
+            return terrain ? BenchFragments::cover_at(double(f.position.x), double(f.position.y)) : 1.0;
+          }};
+}
+
+KernelCase grass_height_case() {
+  return {"grass-height",
+          5,
+          2,
+          8,
+          float_error,
+          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<GrassHeightPass>(device)] {
+              pass->run(all.planes, all.owners, visibility);
+            };
+          },
+          [](const BenchFragments& all, const BenchFragment& f) {
+            if (class_of(all, f) != SurfaceClass::blade) return 1.0;
+            return grass_height(double(f.height), double(f.blade_length), double(f.normal.z));
+          }};
+}
+
+KernelCase open_dome_case() {
+  return {"open-dome",
+          1,
+          1,
+          4,
+          float_error,
+          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<OpenDomePass>(device)] { pass->run(all.planes, visibility); };
+          },
+          [](const BenchFragments&, const BenchFragment& f) { return open_dome(double(f.normal.z)); }};
+}
+
+/// Three terms, all of them the plane normal_x, which combine limits to [0, 1].
+KernelCase combine_case() {
+  return {"combine",
+          5,
+          1,
+          12,
+          float_error,
+          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+            return [&, pass = std::make_shared<CombinePass>(device)] {
+              VisibilityTerms terms;
+              terms.tree = &all.planes.normal_x;
+              terms.crowns = &all.planes.normal_y;
+              terms.dome = &all.planes.normal_z;
+              pass->run(all.planes, all.owners, terms, visibility);
+            };
+          },
+          [](const BenchFragments&, const BenchFragment& f) {
+            const glm::vec3 v = glm::clamp(f.normal, 0.0f, 1.0f);
+            return double(v.x) * double(v.y) * double(v.z);
+          }};
+}
+
+}  // namespace
+
+std::vector<KernelCase> kernel_cases() {
+  return {ambient_case(),
+          open_dome_case(),
+          grass_height_case(),
+          crown_case<ReevesBlauPass>("reeves-blau", 5, 32, reeves_blau_reference),
+          crown_case<SphereCapPass>("sphere-cap", 8, 55, sphere_cap_reference),
+          crown_case<EllipsoidCapPass>("ellipsoid-cap", 8, 105, ellipsoid_cap_reference),
+          sphere_case("solid-angle", solid_angle, 0, false),
+          sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
+          sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),
+          sphere_case("solid-angle-cosine", solid_angle_cosine, 64 * 60, true),
+          combine_case()};
+}
+
+}  // namespace understory
