@@ -140,7 +140,7 @@ float slenderness(const StemPiece& stem) {
 }
 
 Limb limb_of_stem(const StemPiece& stem, const Growth& growth, float flexibility, Random random) {
-  const glm::vec3 base = stem.ends[growth.from_second_end ? 1 : 0].middle;
+  const glm::vec3 base = growth.on_ground ? stem.foot : stem.ends[growth.from_second_end ? 1 : 0].middle;
   const glm::vec3 tip = stem.ends[growth.from_second_end ? 0 : 1].middle;
   Limb limb;
   limb.kind = growth.on_ground ? SwayKind::trunk : SwayKind::branch;

@@ -96,6 +96,14 @@ StemPiece measure_stem(const std::vector<glm::vec3>& positions, const Pieces& pi
       stem.ends[e].radius += glm::distance(position, stem.ends[e].middle) / static_cast<float>(ring.size());
     }
   }
+  const float lowest = positions[*std::min_element(first, last, [&](std::uint32_t a, std::uint32_t b) {
+                         return positions[a].z < positions[b].z;
+                       })].z;
+  float count = 0;
+  for (const std::uint32_t* i = first; i < last; ++i) {
+    if (positions[*i].z <= lowest + 0.01f * stem.extent) stem.foot += positions[*i], ++count;
+  }
+  stem.foot /= count;
   return stem;
 }
 

@@ -25,7 +25,8 @@ struct StemEnd {
 
 struct StemPiece {
   StemEnd ends[2];
-  float extent = 0;  // m, between the ends
+  glm::vec3 foot{0};  // middle of its lowest vertices, m
+  float extent = 0;   // m, between the ends
 };
 
 /// The ends of a piece: its vertices near the two points that lie farthest apart (found in two sweeps).

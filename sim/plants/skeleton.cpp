@@ -10,7 +10,7 @@ namespace understory {
 namespace {
 
 constexpr double buried = 0.012;    // share of the height that a trunk reaches below ground, so that slopes show no gap
-constexpr double clearance = 0.04;  // share of the height: twigs stay above it
+constexpr double clearance = 0.04;  // share of the height: twigs stay about that far above ground
 constexpr glm::dvec3 up{0, 0, 1};
 
 struct Segment {
@@ -91,8 +91,9 @@ Stem grow_child(const GrowthTraits& traits, const std::vector<Stem>& stems, std:
                                  : carrier.length * (1 - 0.6 * share));  // Weber & Penn 1995, section 4.3
   const double angle =
       std::lerp(level.angle_base, level.angle_tip, bearing) + random.uniform(-1, 1) * level.angle_spread;
-  grow_axis(stem, level, carrier.position(share), tilted(carrier.tangent(share), angle, turn),
-            clearance * traits.height, random);
+  const double ground_clearance = clearance * traits.height * random.uniform(0.3, 1.7);
+  grow_axis(stem, level, carrier.position(share), tilted(carrier.tangent(share), angle, turn), ground_clearance,
+            random);
   set_radii(stem, level, std::min(stem.length * level.slenderness, 0.8 * carrier.radius(share)));
   return stem;
 }
