@@ -5,6 +5,7 @@
 
 #include "host/app/checksum.hpp"
 #include "host/app/run_folder.hpp"
+#include "viz/vtk/dumps.hpp"
 #include "viz/vtk/png.hpp"
 
 namespace understory {
@@ -62,6 +63,12 @@ FrameRecord FrameFiles::write(const FrameOutput& output) const {
     write_one("frame", "png", [&](const auto& path) { write_png(path, pictures.sky_lit()); });
     write_one("visibility", "png", [&](const auto& path) { write_png(path, pictures.visibility()); });
   }
+  const GeometryInfo geometry{frame.origin, frame.time, frame.owners};
+  if (dumps("vtk")) {
+    write_one("frame", "vti", [&](const auto& path) { write_image_data(path, frame); });
+    write_one("frame", "vtp", [&](const auto& path) { write_poly_data(path, output.geometry, geometry); });
+  }
+  if (dumps("ply")) write_one("frame", "ply", [&](const auto& path) { write_ply(path, output.geometry, geometry); });
   return record;
 }
 

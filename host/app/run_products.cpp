@@ -6,6 +6,7 @@
 #include "host/app/frame_files.hpp"
 #include "host/app/run_folder.hpp"
 #include "viz/vtk/contact_sheet.hpp"
+#include "viz/vtk/dumps.hpp"
 #include "viz/vtk/movie.hpp"
 #include "viz/vtk/png.hpp"
 
@@ -34,12 +35,20 @@ double rate_of(const RunRecord& record, double scene_rate) {
   return static_cast<double>(record.frames.size() - 1) / span;
 }
 
-}  // namespace
+/// Nothing for a run without such files.
+void write_time_series(const std::filesystem::path& folder, const RunRecord& record, const char* name,
+                       const char* extension) {
+  std::vector<SeriesEntry> entries;
+  for (const auto& [index, frame] : record.frames)
+    if (const std::string file = frame_file_name("frame", index, extension); frame.files.contains(file))
+      entries.push_back({frame.time_s, file});
+  if (!entries.empty()) write_series(folder / name, entries);
+}
 
-void write_products(const std::filesystem::path& folder, const RunRecord& record, const Scene& scene) {
-  MovieWriter movie(folder / "movie.ogv", rate_of(record, scene.time.frames_per_second));
+void write_pictures(const std::filesystem::path& folder, const RunRecord& record, double rate) {
+  MovieWriter movie(folder / "movie.ogv", rate);
   std::vector<ContactCell> cells;
-  const std::size_t stride = std::max<std::size_t>(1, (record.frames.size() + sheet_cells - 1) / sheet_cells);
+  const std::size_t stride = (record.frames.size() + sheet_cells - 1) / sheet_cells;
   std::size_t position = 0;
   for (const auto& [index, frame] : record.frames) {
     const std::vector<Picture> pictures = pictures_of(folder, frame);
@@ -52,6 +61,14 @@ void write_products(const std::filesystem::path& folder, const RunRecord& record
   }
   movie.finish();
   write_png(folder / "contact_sheet.png", contact_sheet(cells, sheet_columns, sheet_picture_width));
+}
+
+}  // namespace
+
+void write_products(const std::filesystem::path& folder, const RunRecord& record, const Scene& scene) {
+  write_time_series(folder, record, "planes.pvd", "vti");
+  write_time_series(folder, record, "geometry.pvd", "vtp");
+  write_pictures(folder, record, rate_of(record, scene.time.frames_per_second));
 }
 
 }  // namespace understory
