@@ -22,6 +22,7 @@ void add_view(CLI::App& program, Command& chosen);
 void add_occlude(CLI::App& program, Command& chosen);
 void add_validate(CLI::App& program, Command& chosen);
 void add_schema(CLI::App& program, Command& chosen);
+void add_bench(CLI::App& program, Command& chosen);
 void add_devices(CLI::App& program, Command& chosen);
 void add_cache(CLI::App& program, Command& chosen);
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "host/app/commands.hpp"
 #include "sim/error.hpp"
@@ -48,6 +49,9 @@ int run_command(const Command& command) {
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
     spdlog::error("out of memory: try a smaller --size, fewer plants or less grass");
+  } catch (const std::system_error& error) {  // of files, and of printing to a standard output that is full
+    spdlog::error("{}", error.what());
+    return static_cast<int>(ErrorKind::input_output);
   } catch (const std::exception& error) {
     spdlog::error("unexpected: {}", error.what());
   }
@@ -68,6 +72,7 @@ int main(int argument_count, char** arguments) {
   add_occlude(program, chosen);
   add_validate(program, chosen);
   add_schema(program, chosen);
+  add_bench(program, chosen);
   add_devices(program, chosen);
   add_cache(program, chosen);
   try {

@@ -67,7 +67,7 @@ TEST(Program, NamesTheDevicesWhenTheOneAskedForIsMissing) {
   const FinishedProcess run =
       understory_command({"run", scenes_folder + "/tiny.yaml", "-o", folder / "out", "--device", "abacus"});
   EXPECT_EQ(run.exit_code, 4);
-  EXPECT_THAT(run.err, IsOneMessageWith("abacus"));
+  EXPECT_THAT(run.err, testing::AllOf(HasSubstr("abacus"), HasSubstr("cpu")));
 }
 
 TEST(Program, TellsAndEmptiesTheKernelCache) {
@@ -93,7 +93,7 @@ TEST(Program, PrintsTheKeysOfScenes) {
 TEST(Program, NoticesThatItsResultsCannotBeWritten) {
   const FinishedProcess result = run_process({"sh", "-c", "exec \"$0\" schema >/dev/full", program_path});
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, IsOneMessageWith("standard output"));
+  EXPECT_THAT(result.err, IsOneMessageWith("No space left on device"));
 }
 
 }  // namespace

@@ -1,0 +1,122 @@
+// `understory bench`: how fast kernels and frames are, beside what the device can do at most.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/report.hpp"
+#include "host/app/bench_json.hpp"
+#include "host/app/commands.hpp"
+#include "host/app/options.hpp"
+
+namespace understory {
+namespace {
+
+struct BenchCommand {
+  BenchOptions bench;
+  DeviceOptions device;
+  bool json = false;
+  std::string compare;  // file of an earlier report; empty: none
+};
+
+/// "12.3 M", for rates.
+std::string rate_text(double per_second) {
+  if (per_second >= 1e9) return fmt::format("{:.2f} G", per_second * 1e-9);
+  if (per_second >= 1e6) return fmt::format("{:.1f} M", per_second * 1e-6);
+  return fmt::format("{:.1f}  ", per_second);
+}
+
+/// A column that may be unknown.
+std::string known(double value, const char* unit, int digits) {
+  return value > 0 ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
+}
+
+void print_result(const BenchResult& result) {
+  if (!result.verified) {
+    fmt::print("{:38} WRONG: deviates by {:.3g}\n", result.name, result.max_error);
+    return;
+  }
+  fmt::print("{:38}{:9.3f}{:9.3f}{:9.3f}{:>10}{:>11}/s{:>8}{:>7}{:>7} {}\n", result.name, result.median_ms,
+             result.low_ms, result.high_ms, known(result.cold_ms, "", 1), rate_text(result.items_per_s),
+             known(result.bytes_per_s * 1e-9, "", 1), known(result.plane_share, "", 2), known(result.roof_share, "", 2),
+             result.bound_by);
+}
+
+void print_report(const BenchReport& report) {
+  fmt::print("{} ({}), {} compute units\n", report.device.name, report.device.platform, report.device.compute_units);
+  for (const auto& [roof, value] : report.roofs) fmt::print("  {:28}{:9.1f}\n", roof, value);
+  fmt::print("{:38}{:>9}{:>9}{:>9}{:>10}{:>13}{:>8}{:>7}{:>7} {}\n", "", "median ms", "low", "high", "cold ms", "items",
+             "GB/s", "planes", "roof", "bound by");
+  for (const BenchResult& result : report.results) print_result(result);
+}
+
+void print_changes(const std::vector<BenchChange>& changes) {
+  fmt::print("\n{:38}{:>9}{:>9}{:>8}\n", "", "then ms", "now ms", "ratio");
+  for (const BenchChange& change : changes) {
+    const char* verdict = !change.changed ? "" : change.ratio > 1 ? "slower" : "faster";
+    fmt::print("{:38}{:9.3f}{:9.3f}{:8.2f} {}\n", change.name, change.old_ms, change.new_ms, change.ratio, verdict);
+  }
+}
+
+int bench(BenchCommand& command) {
+  use_threads(command.device);
+  command.bench.device = command.device.device;
+  command.bench.progress = [](const std::string& name) { spdlog::info("{}", name); };
+  std::vector<BenchResult> then;
+  if (!command.compare.empty()) then = read_bench_results(command.compare);
+  const BenchReport report = run_bench(command.bench);
+  nlohmann::ordered_json json = bench_json(report);
+  const std::vector<BenchChange> changes = compare_results(then, report.results);
+  if (!command.compare.empty()) {
+    json["changes"] = nlohmann::ordered_json::array();
+    for (const BenchChange& change : changes)
+      json["changes"].push_back({{"name", change.name},
+                                 {"old_ms", change.old_ms},
+                                 {"new_ms", change.new_ms},
+                                 {"ratio", change.ratio},
+                                 {"changed", change.changed}});
+  }
+  if (command.json) {
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    print_report(report);
+    if (!command.compare.empty()) print_changes(changes);
+  }
+  const auto wrong = std::count_if(report.results.begin(), report.results.end(),
+                                   [](const BenchResult& result) { return !result.verified; });
+  if (wrong > 0) spdlog::error("{} of {} results are wrong and were not timed", wrong, report.results.size());
+  return wrong > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Command& chosen) {
+  CLI::App* app = program.add_subcommand("bench", "Time kernels and frames beside what the device can do at most");
+  const auto command = std::make_shared<BenchCommand>();
+  BenchOptions& options = command->bench;
+  app->add_option("SCENE", options.scenes, "Scenes whose frames are timed; without one, kernels only")
+      ->check(CLI::ExistingFile);
+  app->add_option("--filter", options.filter, "Only results whose name contains this (kernel/sphere-cap, frame/)");
+  app->add_option("--fragments", options.fragments, "Fragments of the kernel benchmarks")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28))
+      ->capture_default_str();
+  app->add_option("--repetitions", options.repetitions, "Timed runs of each kernel")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app->add_option("--frames", options.frames, "Timed frames of each scene, after a cold one")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app->add_flag("--json", command->json, "Print one JSON object");
+  app->add_option("--compare", command->compare, "Report of an earlier --json to set beside this one");
+  add_device_options(*app, command->device);
+  app->footer(
+      "low and high enclose the median with 95 % confidence. cold: first run, compiling included. planes: speed over\n"
+      "that of a kernel that only reads as many planes and writes one; roof: over the nearest ceiling. Results are\n"
+      "verified first: a wrong one is named, not timed, and makes the exit code 1.");
+  app->callback([command, &chosen] { chosen = [command] { return bench(*command); }; });
+}
+
+}  // namespace understory

@@ -1,0 +1,61 @@
+#include "host/app/bench_json.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/app/device_json.hpp"
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const BenchResult& result) {
+  return {{"name", result.name},
+          {"median_ms", result.median_ms},
+          {"low_ms", result.low_ms},
+          {"high_ms", result.high_ms},
+          {"wall_ms", result.wall_ms},
+          {"cold_ms", result.cold_ms},
+          {"items_per_s", result.items_per_s},
+          {"bytes_per_s", result.bytes_per_s},
+          {"plane_share", result.plane_share},
+          {"roof_share", result.roof_share},
+          {"bound_by", result.bound_by},
+          {"max_error", result.max_error},
+          {"verified", result.verified}};
+}
+
+BenchResult from_json(const Json& json) {
+  BenchResult result;
+  json.at("name").get_to(result.name);
+  json.at("median_ms").get_to(result.median_ms);
+  json.at("low_ms").get_to(result.low_ms);
+  json.at("high_ms").get_to(result.high_ms);
+  json.at("verified").get_to(result.verified);
+  return result;
+}
+
+}  // namespace
+
+Json bench_json(const BenchReport& report) {
+  Json results = Json::array();
+  for (const BenchResult& result : report.results) results.push_back(to_json(result));
+  return {{"device", device_json(report.device)}, {"roofs", report.roofs}, {"results", results}};
+}
+
+std::vector<BenchResult> read_bench_results(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw Error(ErrorKind::input_output, file.string() + ": cannot be read");
+  try {
+    std::vector<BenchResult> results;
+    for (const Json& json : Json::parse(stream).at("results")) results.push_back(from_json(json));
+    return results;
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorKind::invalid_input,
+                file.string() + ": not a report of `understory bench --json`: " + std::string(error.what()));
+  }
+}
+
+}  // namespace understory

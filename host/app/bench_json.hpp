@@ -1,0 +1,18 @@
+// A bench report as the JSON of `bench --json`, and the results of such a file for `--compare`.
+#pragma once
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "bench/report.hpp"
+
+namespace understory {
+
+/// Keys as in DESIGN.md, "What machines read", and wall_ms, cold_ms, plane_share, max_error beside them.
+nlohmann::ordered_json bench_json(const BenchReport& report);
+
+/// Names, times and verdicts of the results in a file that bench_json wrote. Throws Error(input_output) for a file that
+/// cannot be read, Error(invalid_input) for one that is something else.
+std::vector<BenchResult> read_bench_results(const std::filesystem::path& file);
+
+}  // namespace understory
