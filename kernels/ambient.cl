@@ -12,14 +12,17 @@ kernel void shade_ambient(global const float* position_x, global const float* po
                           global float* visibility) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const bits surface = GATHER(bits, owner_class, owner_row(LOAD(owner, i), owners), );
+  const bits surface = owner_column(owner_class, owner_row(LOAD(owner, i), owners));
   const truth is_chosen = ((bits)(share_classes) >> surface & (bits)(1u)) != (bits)(0u);
-  const GroundCoverCell cell = ground_cover_cell(grid, LOAD(position_x, i), LOAD(position_y, i));
-  const real low_left = GATHER(real, ground, cell.low_left, ), low_right = GATHER(real, ground, cell.low_right, );
-  const real high_left = GATHER(real, ground, cell.high_left, ), high_right = GATHER(real, ground, cell.high_right, );
-  const real low = fma(cell.right, low_right - low_left, low_left);
-  const real high = fma(cell.right, high_right - high_left, high_left);
-  const truth covered = cell.within & (surface == (bits)(terrain_class));
-  const real v = PICK(covered, fma(cell.up, high - low, low), PICK(is_chosen, (real)(share), REAL(1.0)));
+  real v = PICK(is_chosen, (real)(share), REAL(1.0));
+  const truth is_terrain = surface == (bits)(terrain_class);
+  if (ANY(is_terrain)) {
+    const GroundCoverCell cell = ground_cover_cell(grid, LOAD(position_x, i), LOAD(position_y, i));
+    const real low_left = GATHER(real, ground, cell.low_left, ), low_right = GATHER(real, ground, cell.low_right, );
+    const real high_left = GATHER(real, ground, cell.high_left, ), high_right = GATHER(real, ground, cell.high_right, );
+    const real low = fma(cell.right, low_right - low_left, low_left);
+    const real high = fma(cell.right, high_right - high_left, high_left);
+    v = PICK(is_terrain & cell.within, fma(cell.up, high - low, low), v);
+  }
   STORE(as_visibility(v), visibility, i);
 }

@@ -16,7 +16,7 @@ kernel void combine(uint present, global const float* ambient, global const floa
   const uint i = get_global_id(0);
   if (i >= items) return;
   real v = TERM(0, ambient) * TERM(1, tree) * TERM(2, grass) * TERM(3, crowns) * TERM(4, occluders);
-  const bits surface = GATHER(bits, owner_class, owner_row(LOAD(owner, i), owners), );
+  const bits surface = owner_column(owner_class, owner_row(LOAD(owner, i), owners));
   const truth has_horizon = ((bits)(horizon_classes) >> surface & (bits)(1u)) != (bits)(0u);
   v *= PICK(has_horizon, REAL(1.0), TERM(5, dome));
   const truth open = (LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) != (bits)(0u);

@@ -6,11 +6,9 @@
 #include "kernels/shared/records.h"
 #include "kernels/shared/validity.h"
 
-SHARED Direction gather_row(global const CrownRecord* crowns, bits crown, uint first) {
-  Direction row;
-  row.x = GATHER(real, crowns, crown, .to_unit[first]);
-  row.y = GATHER(real, crowns, crown, .to_unit[first + 1]);
-  row.z = GATHER(real, crowns, crown, .to_unit[first + 2]);
+SHARED Direction row_of(global const CrownRecord* shell, uint first) {
+  const Direction row = {(real)(shell->to_unit[first]), (real)(shell->to_unit[first + 1]),
+                         (real)(shell->to_unit[first + 2])};
   return row;
 }
 
@@ -21,22 +19,27 @@ kernel void shade_ellipsoid_cap(global const float* position_x, global const flo
                                 uint crown_count, uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const whole crown = GATHER(whole, owner_crown, owner_row(LOAD(owner, i), owners), );
-  const bits row = crown_row(crown, crown_count);
-  Direction offset, normal;
-  offset.x = LOAD(position_x, i) - GATHER(real, crowns, row, .centre_x);
-  offset.y = LOAD(position_y, i) - GATHER(real, crowns, row, .centre_y);
-  offset.z = LOAD(position_z, i) - GATHER(real, crowns, row, .centre_z);
-  normal.x = LOAD(normal_x, i);
-  normal.y = LOAD(normal_y, i);
-  normal.z = LOAD(normal_z, i);
+  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  const real px = LOAD(position_x, i), py = LOAD(position_y, i), pz = LOAD(position_z, i);
+  const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
 
-  const Direction first = gather_row(crowns, row, 0), second = gather_row(crowns, row, 4);
-  const Direction third = gather_row(crowns, row, 8), unit = to_unit_sphere(offset, first, second, third);
-  const real shaded = ellipsoid_cap(unit, normal, first, second, third, GATHER(real, crowns, row, .volume_scale),
-                                    GATHER(real, crowns, row, .alpha_rho));
-  const truth inside = has_crown(crown, crown_count);
-  STORE(PICK(inside, shaded, REAL(1.0)), visibility, i);
-  const truth outside = inside & outside_sphere(unit.x, unit.y, unit.z, REAL(1.0));
+  real v = REAL(1.0);
+  truth outside = (truth)(0);
+  for (truth left = ALL_LANES; ANY(left);) {
+    const uint row = next_owner(owners_here, left);
+    const truth lanes = left & (owners_here == (bits)(row));
+    left &= !lanes;
+    const int crown = owner_crown[row];
+    if (crown < 0 || crown >= (int)crown_count) continue;
+    global const CrownRecord* shell = crowns + crown;
+    const Direction offset = {px - shell->centre_x, py - shell->centre_y, pz - shell->centre_z};
+    const Direction first = row_of(shell, 0), second = row_of(shell, 4), third = row_of(shell, 8);
+    const Direction unit = to_unit_sphere(offset, first, second, third);
+    const real shaded = ellipsoid_cap(unit, normal, first, second, third, (real)(shell->volume_scale),
+                                      (real)(shell->alpha_rho));
+    v = PICK(lanes, shaded, v);
+    outside |= lanes & outside_sphere(unit.x, unit.y, unit.z, REAL(1.0));
+  }
+  STORE(v, visibility, i);
   STORE(LOAD(validity, i) | PICK(outside, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u)), validity, i);
 }

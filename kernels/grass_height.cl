@@ -11,8 +11,8 @@ kernel void shade_grass_height(global const float* height_above_root, global con
                                global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const truth is_blade =
-      GATHER(bits, owner_class, owner_row(LOAD(owner, i), owners), ) == (bits)(blade_class);
+  const bits surface = owner_column(owner_class, owner_row(LOAD(owner, i), owners));
+  const truth is_blade = surface == (bits)(blade_class);
   const real height = LOAD(height_above_root, i), total = LOAD(blade_length, i);
   STORE(PICK(is_blade, grass_height(height, total, LOAD(normal_z, i)), REAL(1.0)), visibility, i);
   const truth within = (height >= REAL(0.0)) & (height <= total) & (total > REAL(0.0));

@@ -13,17 +13,22 @@ kernel void shade_reeves_blau(global const float* position_x, global const float
                               global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const whole crown = GATHER(whole, owner_crown, owner_row(LOAD(owner, i), owners), );
-  const bits row = crown_row(crown, crown_count);
-  const real x = LOAD(position_x, i) - GATHER(real, crowns, row, .x);
-  const real y = LOAD(position_y, i) - GATHER(real, crowns, row, .y);
-  const real z = LOAD(position_z, i) - GATHER(real, crowns, row, .z);
-  const real radius = GATHER(real, crowns, row, .radius);
+  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  const real px = LOAD(position_x, i), py = LOAD(position_y, i), pz = LOAD(position_z, i);
 
-  const real shaded =
-      reeves_blau(x, y, z, radius, GATHER(real, crowns, row, .ambient), GATHER(real, crowns, row, .extinction));
-  const truth inside = has_crown(crown, crown_count);
-  STORE(PICK(inside, shaded, REAL(1.0)), visibility, i);
-  const bits flag = PICK(inside & outside_sphere(x, y, z, radius), (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u));
-  STORE(LOAD(validity, i) | flag, validity, i);
+  real v = REAL(1.0);
+  truth outside = (truth)(0);
+  for (truth left = ALL_LANES; ANY(left);) {
+    const uint row = next_owner(owners_here, left);
+    const truth lanes = left & (owners_here == (bits)(row));
+    left &= !lanes;
+    const int crown = owner_crown[row];
+    if (crown < 0 || crown >= (int)crown_count) continue;
+    global const CrownRecord* shell = crowns + crown;
+    const real x = px - shell->x, y = py - shell->y, z = pz - shell->z, radius = (real)(shell->radius);
+    v = PICK(lanes, reeves_blau(x, y, z, radius, (real)(shell->ambient), (real)(shell->extinction)), v);
+    outside |= lanes & outside_sphere(x, y, z, radius);
+  }
+  STORE(v, visibility, i);
+  STORE(LOAD(validity, i) | PICK(outside, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u)), validity, i);
 }

@@ -26,7 +26,7 @@ kernel void list_tile_spheres(global const float* position_x, global const float
     include(&bounds.a, LOAD(normal_x, unit), drawn);
     include(&bounds.b, LOAD(normal_y, unit), drawn);
     include(&bounds.c, LOAD(normal_z, unit), drawn);
-    bounds.groups |= groups_of(GATHER(whole, owner_group, owner_row(LOAD(owner, unit), owners), ), drawn);
+    bounds.groups |= groups_of(signed_owner_column(owner_group, owner_row(LOAD(owner, unit), owners)), drawn);
   }
   const TileView view = view_of(bounds);
 

@@ -29,7 +29,7 @@ class GroundCoverTable {
 
 class AmbientPass {
  public:
-  explicit AmbientPass(Device& device, Lanes lanes = Lanes(1));
+  explicit AmbientPass(Device& device, int lanes = 0);
   /// Fragments of the classes in `constant_classes` (class_bit) get `constant`; terrain within the grid its ground
   /// visibility; all others 1. `eye`: camera, m relative to the origin. `visibility`: sized like the planes.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, double constant, std::uint32_t constant_classes,

@@ -2,8 +2,9 @@
 
 namespace understory {
 
-CheckFragmentsPass::CheckFragmentsPass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "check_fragments", "check_fragments", "check-fragments", lanes.option()) {}
+CheckFragmentsPass::CheckFragmentsPass(Device& device, int lanes)
+    : lanes_(device, lanes),
+      kernel_(device, "check_fragments", "check_fragments", "check-fragments", lanes_.option()) {}
 
 void CheckFragmentsPass::run(const FragmentPlanes& planes) {
   require_planes("check-fragments", planes, planes.position_x);

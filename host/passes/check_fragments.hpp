@@ -9,7 +9,7 @@ namespace understory {
 
 class CheckFragmentsPass {
  public:
-  explicit CheckFragmentsPass(Device& device, Lanes lanes = Lanes(1));
+  explicit CheckFragmentsPass(Device& device, int lanes = 0);
   /// Adds validity code 2 where a position or normal is not finite (or the normal 0), and code 4 where a normal's
   /// length is off by more than 5e-4; those normals are renormalised in place. Background is left alone.
   void run(const FragmentPlanes& planes);

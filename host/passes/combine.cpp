@@ -2,8 +2,8 @@
 
 namespace understory {
 
-CombinePass::CombinePass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "combine", "combine", "combine", lanes.option()) {}
+CombinePass::CombinePass(Device& device, int lanes)
+    : lanes_(device, lanes), kernel_(device, "combine", "combine", "combine", lanes_.option()) {}
 
 void CombinePass::run(const FragmentPlanes& planes, const OwnerTables& owners, const VisibilityTerms& terms,
                       Buffer<float>& visibility) {

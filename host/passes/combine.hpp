@@ -19,7 +19,7 @@ struct VisibilityTerms {
 
 class CombinePass {
  public:
-  explicit CombinePass(Device& device, Lanes lanes = Lanes(1));
+  explicit CombinePass(Device& device, int lanes = 0);
   /// V = V_own V_dome V_shade (FORMULAS.md); 1 where validity says background or not finite.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const VisibilityTerms& terms,
            Buffer<float>& visibility);

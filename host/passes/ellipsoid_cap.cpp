@@ -2,8 +2,9 @@
 
 namespace understory {
 
-EllipsoidCapPass::EllipsoidCapPass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "ellipsoid_cap", "shade_ellipsoid_cap", "ellipsoid-cap", lanes.option()) {}
+EllipsoidCapPass::EllipsoidCapPass(Device& device, int lanes)
+    : lanes_(device, lanes),
+      kernel_(device, "ellipsoid_cap", "shade_ellipsoid_cap", "ellipsoid-cap", lanes_.option()) {}
 
 void EllipsoidCapPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,
                            Buffer<float>& visibility) {

@@ -9,7 +9,7 @@ namespace understory {
 
 class EllipsoidCapPass {
  public:
-  explicit EllipsoidCapPass(Device& device, Lanes lanes = Lanes(1));
+  explicit EllipsoidCapPass(Device& device, int lanes = 0);
   /// `crowns`: rows that OwnerTables::crown names, at least one. `visibility`: [0, 1], 1 without a crown; sized like
   /// the planes. Adds validity code 8 to fragments outside their crown's ellipsoid.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,

@@ -8,7 +8,7 @@ namespace understory {
 
 class GrassHeightPass {
  public:
-  explicit GrassHeightPass(Device& device, Lanes lanes = Lanes(1));
+  explicit GrassHeightPass(Device& device, int lanes = 0);
   /// Reads planes.height_above_root and planes.blade_length too. `visibility`: [0, 1], 1 for all but blades; sized like
   /// the planes. Adds validity code 8 to blades' fragments whose height is not within [0, blade_length].
   void run(const FragmentPlanes& planes, const OwnerTables& owners, Buffer<float>& visibility);

@@ -9,15 +9,11 @@ bool is_width(int count) { return count == 1 || count == 4 || count == 8 || coun
 
 }  // namespace
 
-Lanes::Lanes(int count) : count_(count) {
-  if (!is_width(count))
+Lanes::Lanes(const Device& device, int count) : count_(count) {
+  if (count == 0) count_ = is_width(device.info().vector_width) ? device.info().vector_width : 1;
+  if (!is_width(count_))
     throw Error(ErrorKind::unexpected,
-                "fragments per work-item: " + std::to_string(count) + " is not one of 1, 4, 8, 16");
-}
-
-Lanes Lanes::of_device(const Device& device) {
-  const int width = device.info().vector_width;
-  return Lanes(is_width(width) ? width : 1);
+                "fragments per work-item: " + std::to_string(count) + " is not one of 0, 1, 4, 8, 16");
 }
 
 }  // namespace understory

@@ -8,14 +8,12 @@
 
 namespace understory {
 
-/// Fragments per work-item: W of kernels/shared/real.h; 1, 4, 8 or 16. Kernels without an inner loop are vectorised
-/// across work-items by the device, best at 1; those with one want the device's vector width (POCL.md).
+/// Fragments per work-item: W of kernels/shared/real.h.
 class Lanes {
  public:
-  /// Throws Error(unexpected) unless `count` is 1, 4, 8 or 16.
-  explicit Lanes(int count);
-  /// For a kernel with an inner loop: the device's vector width, or 1 where that is no width of ours.
-  static Lanes of_device(const Device& device);
+  /// `count`: 1, 4, 8 or 16; 0: the device's vector width where it is one of them, else 1 (POCL.md: explicit vectors
+  /// run up to 20 times as fast on a CPU). Throws Error(unexpected) for another number.
+  Lanes(const Device& device, int count);
 
   std::string option() const { return "-DW=" + std::to_string(count_); }
   std::uint32_t items(const FragmentPlanes& planes) const {

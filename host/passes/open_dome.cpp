@@ -2,8 +2,8 @@
 
 namespace understory {
 
-OpenDomePass::OpenDomePass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "open_dome", "shade_open_dome", "open-dome", lanes.option()) {}
+OpenDomePass::OpenDomePass(Device& device, int lanes)
+    : lanes_(device, lanes), kernel_(device, "open_dome", "shade_open_dome", "open-dome", lanes_.option()) {}
 
 void OpenDomePass::run(const FragmentPlanes& planes, Buffer<float>& visibility) {
   require_planes("open-dome", planes, visibility);

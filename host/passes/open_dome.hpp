@@ -8,7 +8,7 @@ namespace understory {
 
 class OpenDomePass {
  public:
-  explicit OpenDomePass(Device& device, Lanes lanes = Lanes(1));
+  explicit OpenDomePass(Device& device, int lanes = 0);
   /// `visibility`: [0, 1], of V_c; sized like the planes.
   void run(const FragmentPlanes& planes, Buffer<float>& visibility);
 

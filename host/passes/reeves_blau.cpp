@@ -2,8 +2,8 @@
 
 namespace understory {
 
-ReevesBlauPass::ReevesBlauPass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "reeves_blau", "shade_reeves_blau", "reeves-blau", lanes.option()) {}
+ReevesBlauPass::ReevesBlauPass(Device& device, int lanes)
+    : lanes_(device, lanes), kernel_(device, "reeves_blau", "shade_reeves_blau", "reeves-blau", lanes_.option()) {}
 
 void ReevesBlauPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,
                          Buffer<float>& visibility) {

@@ -11,25 +11,23 @@ namespace {
 constexpr std::size_t longest_list = 256;  // spheres per tile; a tile with more tries all of them
 
 std::string share_option(const std::string& method) {
-  if (method == "solid-angle") return "-DSHARE=solid_angle";
-  if (method == "solid-angle-exact") return "-DSHARE=solid_angle_exact";
-  if (method == "solid-angle-cosine") return "-DSHARE=solid_angle_cosine";
+  if (method == "solid-angle") return "-DSHARE=unit_solid_angle";
+  if (method == "solid-angle-exact") return "-DSHARE=unit_solid_angle_exact";
+  if (method == "solid-angle-cosine") return "-DSHARE=unit_solid_angle_cosine";
   throw Error(ErrorKind::unexpected,
               "method '" + method + "' is not one of solid-angle, solid-angle-exact, solid-angle-cosine");
 }
 
 }  // namespace
 
-SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFieldError error)
-    : SolidAnglePass(device, method, error, Lanes::of_device(device)) {}
-
-SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFieldError error, Lanes lanes)
+SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFieldError error, int lanes)
     : device_(&device),
       method_(method),
       error_(error),
-      lanes_(lanes),
-      list_(device, "tile_spheres", "list_tile_spheres", method, Lanes(16).option() + " " + share_option(method)),
-      shade_(device, "solid_angle", "shade_by_spheres", method, lanes.option() + " " + share_option(method)) {}
+      lanes_(device, lanes),
+      list_(device, "tile_spheres", "list_tile_spheres", method,
+            Lanes(device, 16).option() + " " + share_option(method)),
+      shade_(device, "solid_angle", "shade_by_spheres", method, lanes_.option() + " " + share_option(method)) {}
 
 void SolidAnglePass::fit_tables(std::size_t tiles, std::size_t entries) {
   if (tiles_.size() < tiles) tiles_ = Buffer<TileOcclusion>(*device_, tiles, "tile occlusion");

@@ -20,8 +20,7 @@ struct FarFieldError {
 class SolidAnglePass {
  public:
   /// `method`: one of the three names; also the pass name in timings. Throws Error(unexpected) for another.
-  SolidAnglePass(Device& device, const std::string& method, FarFieldError error = {});
-  SolidAnglePass(Device& device, const std::string& method, FarFieldError error, Lanes lanes);
+  SolidAnglePass(Device& device, const std::string& method, FarFieldError error = {}, int lanes = 0);
   /// The first `sphere_count` records of `spheres` shade; 0 leaves all open. `visibility`: [0, 1], sized like the
   /// planes. Adds validity code 16 to fragments within a sphere of another group.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<ShadingSphere>& spheres,

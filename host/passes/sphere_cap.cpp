@@ -2,8 +2,8 @@
 
 namespace understory {
 
-SphereCapPass::SphereCapPass(Device& device, Lanes lanes)
-    : lanes_(lanes), kernel_(device, "sphere_cap", "shade_sphere_cap", "sphere-cap", lanes.option()) {}
+SphereCapPass::SphereCapPass(Device& device, int lanes)
+    : lanes_(device, lanes), kernel_(device, "sphere_cap", "shade_sphere_cap", "sphere-cap", lanes_.option()) {}
 
 void SphereCapPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,
                         Buffer<float>& visibility) {

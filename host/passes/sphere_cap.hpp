@@ -9,7 +9,7 @@ namespace understory {
 
 class SphereCapPass {
  public:
-  explicit SphereCapPass(Device& device, Lanes lanes = Lanes(1));
+  explicit SphereCapPass(Device& device, int lanes = 0);
   /// `crowns`: rows that OwnerTables::crown names, at least one. `visibility`: [0, 1], 1 without a crown; sized like
   /// the planes. Adds validity code 8 to fragments outside their crown's sphere.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,

@@ -21,8 +21,8 @@ typedef struct {
 #define FAR_PAPER {0.5f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}
 
 #ifdef __OPENCL_C_VERSION__
-constant FarShare solid_angle_cosine_far = FAR_COSINE;
-constant FarShare solid_angle_exact_far = FAR_EXACT;
-constant FarShare solid_angle_far = FAR_PAPER;
+constant FarShare unit_solid_angle_cosine_far = FAR_COSINE;
+constant FarShare unit_solid_angle_exact_far = FAR_EXACT;
+constant FarShare unit_solid_angle_far = FAR_PAPER;
 #endif
 #endif

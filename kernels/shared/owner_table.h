@@ -1,16 +1,55 @@
-// Rows of the owner table, and what they lead to, one per lane. A foreign image may name rows that do not exist.
+// What the W fragments of a work-item belong to. Neighbours mostly share an owner, so kernels go through the distinct
+// owners one by one and read each row once for all of its lanes: gathers by lane cost several times as much on a CPU.
+//   for (truth left = ALL_LANES; ANY(left);) {
+//     const uint row = next_owner(owner, left);
+//     const truth lanes = left & (owner == (bits)(row));
+//     left &= !lanes;
+//     ... one row, for `lanes`
+//   }
 #ifndef UNDERSTORY_OWNER_TABLE_H
 #define UNDERSTORY_OWNER_TABLE_H
 
 #include "kernels/shared/real.h"
 
-/// Row within the table; rows beyond it are the background's.
+#define ALL_LANES ((truth)(-1))
+
+/// Row within the table of `owners` rows; a foreign image may name others, which count as the background's.
 SHARED bits owner_row(bits owner, uint owners) { return PICK(owner < (bits)(owners), owner, (bits)(0u)); }
 
-/// Whether `crown`, -1 for none, is a row of the crown table.
-SHARED truth has_crown(whole crown, uint crowns) { return (crown >= 0) & (crown < (whole)((int)crowns)); }
+/// The largest owner among the lanes that are left.
+SHARED uint next_owner(bits owner, truth left) {
+  const bits candidates = PICK(left, owner, (bits)(0u));
+#if W == 1
+  return candidates;
+#elif W == 4
+  const uint2 two = max(candidates.lo, candidates.hi);
+  return max(two.x, two.y);
+#else
+#if W == 16
+  const uint8 eight = max(candidates.lo, candidates.hi);
+#else
+  const uint8 eight = candidates;
+#endif
+  const uint4 four = max(eight.lo, eight.hi);
+  const uint2 two = max(four.lo, four.hi);
+  return max(two.x, two.y);
+#endif
+}
 
-/// Row of the crown table; the first for owners without a crown.
-SHARED bits crown_row(whole crown, uint crowns) { return PICK(has_crown(crown, crowns), TO_BITS(crown), (bits)(0u)); }
+/// The column's value for each lane.
+SHARED bits owner_column(global const uint* column, bits owner) {
+  bits value = (bits)(0u);
+  for (truth left = ALL_LANES; ANY(left);) {
+    const uint row = next_owner(owner, left);
+    const truth lanes = left & (owner == (bits)(row));
+    left &= !lanes;
+    value = PICK(lanes, (bits)(column[row]), value);
+  }
+  return value;
+}
+
+SHARED whole signed_owner_column(global const int* column, bits owner) {
+  return AS_WHOLE(owner_column((global const uint*)column, owner));
+}
 
 #endif

@@ -36,6 +36,7 @@ typedef uint bits;
 #define BYTES uchar
 #define TO_BYTES(value) convert_uchar(value)
 #define TO_BITS(value) convert_uint(value)
+#define AS_WHOLE(value) as_int(value)
 #else
 typedef JOIN(float, W) real;
 typedef JOIN(int, W) truth;
@@ -52,6 +53,7 @@ typedef JOIN(uint, W) bits;
 #define BYTES JOIN(uchar, W)
 #define TO_BYTES(value) JOIN(convert_uchar, W)(value)
 #define TO_BITS(value) JOIN(convert_uint, W)(value)
+#define AS_WHOLE(value) JOIN(as_int, W)(value)
 #endif
 
 // GATHER(real, table, index, .member): a member of table[index] for every lane of the `whole` or `bits` index.

@@ -1,13 +1,14 @@
-// What share of a fragment's sky an opaque sphere blocks, in three forms. c = (x, y, z): the sphere's centre from the
-// fragment, d = |c|, s = c.n its height above the tangent plane, r its radius; all m.
-//   solid_angle         Hegeman et al. 2006 eq. 7-8: pi (r/d)^2 / 2 pi; near V_u, knows no tangent plane
-//   solid_angle_exact   V_u: the cone 2 pi (1 - sqrt(1 - (r/d)^2)) clipped by the tangent plane, over 2 pi
-//   solid_angle_cosine  V_c: the exact form factor of the sphere clipped by the tangent plane
-// With t = sqrt(d^2 - r^2), k = sqrt(r^2 - s^2), A = atan(s t / (d k)), where the plane cuts the sphere (|s| < r):
-//   exact   1/2 + atan(s/k)/pi - (t/d) (1/2 + A/pi)           Gauss-Bonnet on the clipped cap
-//   cosine  [s r^2/d^3 (pi/2 + A) - k t/d^2 + atan(k/t)] / pi   Snyder 1996, MSR-TR-96-11, spherical source
-// At d <= r (validity code 16) the paper's form is capped at 1; the others take their limit at d = r and go linearly
-// to 1 at the centre, so that they stay continuous. tests/kernels/solid_angle_test.cpp: error below 2e-6.
+// What share of a fragment's sky an opaque sphere blocks, in three forms. Lengths are in units of the sphere's radius;
+// (x, y, z) is the sphere's centre from the fragment, (a, b, c) the unit normal; d the distance, s the centre's height
+// above the tangent plane, p = 1/d^2, t = sqrt(d^2 - 1), k = sqrt(1 - s^2), A = atan(s t / (d k)).
+//   solid_angle         Hegeman et al. 2006 eq. 7-8: pi p / 2 pi; near V_u, knows no tangent plane
+//   solid_angle_exact   V_u: the cone 2 pi (1 - t/d) clipped by the tangent plane, over 2 pi; where the plane cuts the
+//                       sphere 1/2 + atan(s/k)/pi - (t/d) (1/2 + A/pi), by Gauss-Bonnet on the clipped cap
+//   solid_angle_cosine  V_c: the form factor of the sphere clipped by the tangent plane: s/d^3 where the sphere is above
+//                       it, where the plane cuts it [s/d^3 (pi/2 + A) - k t/d^2 + atan(k/t)] / pi
+//                       (Snyder 1996, Area light sources for real-time graphics, MSR-TR-96-11)
+// At d <= 1 (validity code 16) the paper's form is capped at 1; the others take their limit at d = 1 and go linearly
+// to 1 at the centre, so that they stay continuous. Error below 4e-6 (tests/kernels/solid_angle_test.cpp).
 #ifndef UNDERSTORY_SOLID_ANGLE_H
 #define UNDERSTORY_SOLID_ANGLE_H
 
@@ -19,85 +20,95 @@ namespace understory {
 
 #define INVERSE_PI REAL(0.3183098861837907)
 
-/// A sphere as a fragment sees it; lengths in m.
-typedef struct {
-  real distance, height;     // d >= 1e-12; s within [-d, d]
-  real radius;               // r, at most d: the contact's limit stands for the inside
-  real inverse_distance;     // 1/d
-  real inside;               // d/r within the sphere, 1 outside
-} SphereView;
-
-SHARED SphereView view_sphere(real x, real y, real z, real a, real b, real c, real radius) {
-  SphereView view;
-  // A position that is not a number stays one, and blocks nothing in the end.
-  const real length_squared = fma(x, x, fma(y, y, z * z));
-  const real square = PICK(length_squared < REAL(1e-24), REAL(1e-24), length_squared);
-  view.distance = sqrt(square);
-  view.inverse_distance = REAL(1.0) / view.distance;
-  view.height = at_most(at_least(fma(x, a, fma(y, b, z * c)), -view.distance), view.distance);
-  view.radius = at_most(radius, view.distance);
-  view.inside = PICK(view.distance < radius, view.distance / at_least(radius, REAL(1e-12)), REAL(1.0));
-  return view;
-}
-
-/// atan(s/k) and the like: odd in its first argument, whose sign may be either.
-SHARED real signed_arc_tangent(real y, real x) {
-  const real angle = arc_tangent(fabs(y), x);
-  return PICK(y < REAL(0.0), -angle, angle);
+/// d^2, at least 1e-24. A position that is not a number stays one, and blocks nothing in the end.
+SHARED real distance_squared(real x, real y, real z) {
+  const real square = fma(x, x, fma(y, y, z * z));
+  return PICK(square < REAL(1e-24), REAL(1e-24), square);
 }
 
 /// sqrt(u^2 - v^2) for u >= |v|, 0 beyond; the product keeps the digits that the squares lose.
 SHARED real leg(real u, real v) { return sqrt(at_least((u - v) * (u + v), REAL(0.0))); }
 
-/// A share within [0, 1], continued to the sphere's centre; NaN blocks nothing.
-SHARED real blocked_share(real share, real inside) {
-  const real open = REAL(1.0) - at_most(at_least(share, REAL(0.0)), REAL(1.0));
-  return fma(-inside, open, REAL(1.0));
+/// atan(y/x) for x >= 0 and y of either sign.
+SHARED real signed_arc_tangent(real y, real x) {
+  const real angle = arc_tangent(fabs(y), x);
+  return PICK(y < REAL(0.0), -angle, angle);
 }
 
-/// Validity code 16: the fragment lies within the sphere.
-SHARED truth sphere_too_close(real x, real y, real z, real radius) {
-  return fma(x, x, fma(y, y, z * z)) <= radius * radius;
+/// Within [0, 1], and nothing for what is not a number.
+SHARED real as_share(real share) { return at_most(at_least(share, REAL(0.0)), REAL(1.0)); }
+
+/// Continues the share at the sphere's surface to 1 at its centre.
+SHARED real share_inside(real share, real distance) {
+  return PICK(distance < REAL(1.0), fma(-distance, REAL(1.0) - as_share(share), REAL(1.0)), share);
 }
 
+SHARED real unit_solid_angle(real x, real y, real z, real a, real b, real c) {
+  (void)a, (void)b, (void)c;  // takes what the others take
+  return as_share(REAL(0.5) / distance_squared(x, y, z));
+}
+
+/// Where the plane cuts the sphere, or the fragment lies within it.
+SHARED real cut_solid_angle_exact(real height, real distance) {
+  const real s = at_most(at_least(height, -distance), distance), r = at_most(REAL(1.0), distance);
+  const real cosine = leg(distance, r) / distance, k = leg(r, s);
+  const real lean = signed_arc_tangent(s * cosine, k), rise = signed_arc_tangent(s, k);
+  const real share = fma(-cosine, fma(lean, INVERSE_PI, REAL(0.5)), fma(rise, INVERSE_PI, REAL(0.5)));
+  return share_inside(share, distance);
+}
+
+SHARED real unit_solid_angle_exact(real x, real y, real z, real a, real b, real c) {
+  const real s = fma(x, a, fma(y, b, z * c)), square = distance_squared(x, y, z), p = REAL(1.0) / square;
+  const real whole = p / (REAL(1.0) + sqrt(at_least(REAL(1.0) - p, REAL(0.0))));
+  const truth cut = (fabs(s) < REAL(1.0)) | (square < REAL(1.0));
+  real share = PICK(s > REAL(0.0), whole, REAL(0.0));
+  if (ANY(cut)) share = PICK(cut, cut_solid_angle_exact(s, sqrt(square)), share);
+  return as_share(share);
+}
+
+/// Where the fragment is near the sphere or within it: the closed form.
+SHARED real near_solid_angle_cosine(real height, real distance) {
+  const real s = at_most(at_least(height, -distance), distance), r = at_most(REAL(1.0), distance);
+  const real inverse = REAL(1.0) / distance, ratio = r * inverse, whole = ratio * ratio * (s * inverse);
+  const real cosine = leg(distance, r) * inverse, k = leg(r, s), flat = k * inverse;
+  const real lean = signed_arc_tangent(s * cosine, k), edge = arc_tangent(flat, cosine);
+  const real cut = fma(whole, fma(lean, INVERSE_PI, REAL(0.5)), INVERSE_PI * fma(-flat, cosine, edge));
+  return share_inside(PICK(fabs(s) < r, cut, whole), distance);
+}
+
+/// d >= 2 and |s| < 1. The closed form is s/(2 d^3) plus a part even in s, here a least-maximum fit over s^2 and p with
+/// an error of 1.9e-6: a fifth of the closed form's time.
+SHARED real cut_solid_angle_cosine(real s, real p, real cube) {
+  const real v = s * s;
+  real zeroth = fma(REAL(0.00273448101), v, REAL(-0.0121865924));
+  zeroth = fma(fma(fma(zeroth, v, REAL(-0.0192984532)), v, REAL(0.316219344)), v, REAL(0.212514561));
+  real first = fma(REAL(-0.0662470204), v, REAL(0.103075839));
+  first = fma(fma(fma(first, v, REAL(0.0418106816)), v, REAL(-0.137488154)), v, REAL(0.0590581982));
+  real second = fma(REAL(0.0867369437), v, REAL(-0.127310021));
+  second = fma(fma(fma(second, v, REAL(0.074951594)), v, REAL(-0.0888092794)), v, REAL(0.0541010268));
+  return cube * fma(REAL(0.5), s, fma(fma(second, p, first), p, zeroth));
+}
+
+SHARED real unit_solid_angle_cosine(real x, real y, real z, real a, real b, real c) {
+  const real s = fma(x, a, fma(y, b, z * c)), square = distance_squared(x, y, z);
+  const real inverse = REAL(1.0) / sqrt(square), p = inverse * inverse, cube = p * inverse;
+  const truth near = square < REAL(4.0);
+  real share = PICK(fabs(s) < REAL(1.0), cut_solid_angle_cosine(s, p, cube), s * cube);
+  if (ANY(near)) share = PICK(near, near_solid_angle_cosine(s, sqrt(square)), share);
+  return as_share(share);
+}
+
+/// The same for a sphere of `radius` > 0, lengths in m.
 SHARED real solid_angle(real x, real y, real z, real a, real b, real c, real radius) {
-  const SphereView view = view_sphere(x, y, z, a, b, c, radius);
-  const real ratio = radius * view.inverse_distance;
-  return at_most(at_least(REAL(0.5) * ratio * ratio, REAL(0.0)), REAL(1.0));
+  return unit_solid_angle(x / radius, y / radius, z / radius, a, b, c);
 }
 
 SHARED real solid_angle_exact(real x, real y, real z, real a, real b, real c, real radius) {
-  const SphereView view = view_sphere(x, y, z, a, b, c, radius);
-  const real s = view.height, r = view.radius;
-  const real ratio = r * view.inverse_distance;
-  const real cosine = leg(view.distance, r) * view.inverse_distance;  // of the cone's half-angle
-  real share = PICK(s > REAL(0.0), ratio * ratio / (REAL(1.0) + cosine), REAL(0.0));
-  const truth cut = fabs(s) < r;
-  if (ANY(cut)) {
-    const real k = leg(r, s);
-    const real lean = signed_arc_tangent(s * cosine, k), rise = signed_arc_tangent(s, k);
-    const real clipped = fma(-cosine, fma(lean, INVERSE_PI, REAL(0.5)), fma(rise, INVERSE_PI, REAL(0.5)));
-    share = PICK(cut, clipped, share);
-  }
-  return blocked_share(share, view.inside);
+  return unit_solid_angle_exact(x / radius, y / radius, z / radius, a, b, c);
 }
 
 SHARED real solid_angle_cosine(real x, real y, real z, real a, real b, real c, real radius) {
-  const SphereView view = view_sphere(x, y, z, a, b, c, radius);
-  const real s = view.height, r = view.radius;
-  const real ratio = r * view.inverse_distance;
-  const real whole = ratio * ratio * (s * view.inverse_distance);
-  real share = whole;
-  const truth cut = fabs(s) < r;
-  if (ANY(cut)) {
-    const real cosine = leg(view.distance, r) * view.inverse_distance, k = leg(r, s);
-    const real lean = signed_arc_tangent(s * cosine, k);
-    const real edge = arc_tangent(k * view.inverse_distance, cosine);
-    const real clipped = fma(whole, fma(lean, INVERSE_PI, REAL(0.5)),
-                             INVERSE_PI * fma(-k * view.inverse_distance, cosine, edge));
-    share = PICK(cut, clipped, share);
-  }
-  return blocked_share(share, view.inside);
+  return unit_solid_angle_cosine(x / radius, y / radius, z / radius, a, b, c);
 }
 
 #undef INVERSE_PI

@@ -113,8 +113,9 @@ SHARED void fold(const TileView view, const SphereLanes s, const SphereBounds bo
   const real ratio = s.radius * inverse;
 
   const truth flat = folded & bounds.one_normal, quadratic = folded & !bounds.one_normal;
-  const real share = s.opacity * SHARE(dx, dy, dz, (real)(view.normal[0]), (real)(view.normal[1]),
-                                       (real)(view.normal[2]), s.radius);
+  const real inverse_radius = REAL(1.0) / s.radius;
+  const real share = s.opacity * SHARE(dx * inverse_radius, dy * inverse_radius, dz * inverse_radius,
+                                       (real)(view.normal[0]), (real)(view.normal[1]), (real)(view.normal[2]));
   // -log(1 - share), share <= 1/2 wherever folding is cheap enough.
   const real depth = share * fma(share, fma(share, REAL(0.33333333), REAL(0.5)), REAL(1.0));
   const real weight = PICK(quadratic, s.opacity * ratio * ratio, REAL(0.0));
