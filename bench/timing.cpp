@@ -28,8 +28,10 @@ double wall_milliseconds(Device& device, const std::function<void()>& action) {
 std::vector<MeasuredTime> time_in_turn(Device& device, const std::vector<std::function<void()>>& actions,
                                        int repetitions) {
   std::vector<std::vector<double>> device_ms(actions.size()), wall_ms(actions.size());
+  const std::size_t count = actions.size();
   for (int repetition = -1; repetition < repetitions; ++repetition) {
-    for (std::size_t i = 0; i < actions.size(); ++i) {
+    for (std::size_t turn = 0; turn < count; ++turn) {
+      const std::size_t i = repetition % 2 == 0 ? turn : count - 1 - turn;
       device.take_pass_times();
       const double wall = wall_milliseconds(device, actions[i]);
       double sum = 0;

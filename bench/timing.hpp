@@ -22,7 +22,7 @@ struct MeasuredTime {
   Spread95 wall_ms;    // from the first call to the last result, on the host
 };
 
-/// Runs all `actions` once each, `repetitions` times over, after one untimed round.
+/// Runs all `actions` once each, `repetitions` times over, forwards and backwards by turns, after one untimed round.
 std::vector<MeasuredTime> time_in_turn(Device& device, const std::vector<std::function<void()>>& actions,
                                        int repetitions);
 
