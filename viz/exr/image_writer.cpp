@@ -85,6 +85,7 @@ void insert_plane(Imf::Header& header, Imf::FrameBuffer& buffer, const ExrImage&
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 1;  // half the time of the default for 1 % more bytes on frames of foliage
   insert_attributes(header, image.attributes);
   Imf::FrameBuffer buffer;
   for (const auto& [name, plane] : image.floats) insert_plane(header, buffer, image, name, Imf::FLOAT, plane);

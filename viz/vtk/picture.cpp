@@ -38,6 +38,9 @@ std::uint8_t encode_byte(float linear) {
   return encoding_table()[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * encoding_steps + 0.5f)];
 }
 
+/// A film's answer to light: dark shadows, soft highlights. K. Narkowicz 2016, "ACES Filmic Tone Mapping Curve".
+float film(float light) { return light * (2.51f * light + 0.03f) / (light * (2.43f * light + 0.59f) + 0.14f); }
+
 }  // namespace
 
 Picture::Picture(int columns, int rows, glm::u8vec3 fill)
@@ -67,8 +70,7 @@ Picture develop(const LightPicture& light, float exposure) {
   Picture picture(light.width, light.height, glm::u8vec3(0));
   for (std::size_t i = 0; i < light.light.size(); ++i)
     for (int channel = 0; channel < 3; ++channel)
-      picture.rgb[3 * i + static_cast<std::size_t>(channel)] =
-          encode_byte(1 - std::exp(-exposure * light.light[i][channel]));
+      picture.rgb[3 * i + static_cast<std::size_t>(channel)] = encode_byte(film(exposure * light.light[i][channel]));
   return picture;
 }
 

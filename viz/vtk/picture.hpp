@@ -26,7 +26,7 @@ struct LightPicture {
 float encode_srgb(float linear);
 float decode_srgb(float encoded);
 
-/// Exposes light as a camera would: 1 - exp(-exposure * light), then sRGB.
+/// Exposes light as a camera would, through a film curve, then sRGB.
 Picture develop(const LightPicture& light, float exposure);
 
 /// Area average in linear light; `width` at most the picture's, height in proportion (at least 1).

@@ -59,6 +59,13 @@ glm::vec3 with_bounces(float visibility, glm::vec3 albedo) {
   return glm::max(glm::vec3(visibility), ((visibility * a + b) * visibility + c) * visibility);
 }
 
+/// Leaves and blades let through about half as much as they reflect, yellower (Jacquemoud and Baret 1990, PROSPECT).
+/// What reaches the far side: the share of sky that occluders leave, over the half dome behind. V = share (1 + n_z)/2.
+glm::vec3 light_from_behind(float visibility, float normal_z) {
+  const float share = std::min(1.0f, visibility / std::max(0.1f, 0.5f * (1 + normal_z)));
+  return share * 0.5f * (1 - normal_z) * glm::vec3(0.55f, 0.55f, 0.25f);
+}
+
 /// CIE standard overcast sky, scaled so that a horizontal surface receives what a uniform sky of radiance 1 gives:
 /// L_zenith = 9/7. Below the horizon the ground far away is hazed to the horizon's light.
 glm::vec3 sky_radiance(const SkyLight& sky, float sine_of_elevation) {
@@ -66,6 +73,30 @@ glm::vec3 sky_radiance(const SkyLight& sky, float sine_of_elevation) {
   const glm::vec3 warm_horizon(1.02f, 1.0f, 0.97f);
   return sky.tint * glm::mix(warm_horizon, glm::vec3(0.96f, 0.99f, 1.03f), std::min(1.0f, 2 * up)) * (9.0f / 7.0f) *
          (1 + 2 * up) / 3.0f;
+}
+
+/// What a covered pixel reflects to the camera, relative to the sky's mean.
+glm::vec3 surface_radiance(const Frame& frame, std::size_t i, const SkyLight& sky,
+                           const std::vector<glm::vec3>& plant_albedo) {
+  const glm::vec3 albedo = albedo_at(frame, i, plant_albedo);
+  const float visibility = frame.visibility[i], normal_z = frame.normal[2][i];
+  const float from_ground = sky.ground_albedo * 0.5f * (1 - normal_z) * (0.3f + 0.7f * visibility);
+  glm::vec3 arriving = with_bounces(visibility, albedo) + from_ground;
+  const std::uint32_t row = frame.owner[i];
+  const SurfaceClass surface = row < frame.owners.size() ? frame.owners[row].surface : SurfaceClass::background;
+  if (surface == SurfaceClass::leaf || surface == SurfaceClass::blade)
+    arriving += light_from_behind(visibility, normal_z);
+  return albedo * sky.tint * arriving;
+}
+
+/// The sine of the elevation that the pixel looks at.
+float elevation_sine(const Frame& frame, std::size_t i, const glm::mat3& to_world, float half_height) {
+  const auto width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
+  const auto x = static_cast<float>(i % static_cast<std::size_t>(frame.width)) + 0.5f;
+  const auto y = static_cast<float>(i / static_cast<std::size_t>(frame.width)) + 0.5f;
+  const glm::vec3 ray =
+      to_world * glm::vec3((2 * x - width) / height * half_height, (1 - 2 * y / height) * half_height, -1);
+  return ray.z / glm::length(ray);
 }
 
 }  // namespace
@@ -84,19 +115,11 @@ LightPicture sky_light_picture(const Frame& frame, const SkyLight& sky) {
   const float extinction = 3.912f / sky.meteorological_range;  // Koschmieder: ln(1/0.02) over the range
   for (std::size_t i = 0; i < result.light.size(); ++i) {
     if ((frame.validity[i] & validity::background) != 0) {
-      const auto x = static_cast<float>(i % static_cast<std::size_t>(frame.width)) + 0.5f;
-      const auto y = static_cast<float>(i / static_cast<std::size_t>(frame.width)) + 0.5f;
-      const auto height = static_cast<float>(frame.height);
-      const glm::vec3 ray = to_world * glm::vec3((2 * x - static_cast<float>(frame.width)) / height * half_height,
-                                                 (1 - 2 * y / height) * half_height, -1);
-      result.light[i] = sky_radiance(sky, ray.z / glm::length(ray));
-      continue;
+      result.light[i] = sky_radiance(sky, elevation_sine(frame, i, to_world, half_height));
+    } else {
+      const float kept = std::exp(-extinction * frame.depth[i]);
+      result.light[i] = glm::mix(haze, surface_radiance(frame, i, sky, plant_albedo), kept);
     }
-    const glm::vec3 albedo = albedo_at(frame, i, plant_albedo);
-    const float facing_down = 0.5f * (1 - frame.normal[2][i]);
-    const glm::vec3 arriving = with_bounces(frame.visibility[i], albedo) +
-                               sky.ground_albedo * facing_down * (0.3f + 0.7f * frame.visibility[i]);
-    result.light[i] = glm::mix(haze, albedo * sky.tint * arriving, std::exp(-extinction * frame.depth[i]));
   }
   return result;
 }

@@ -9,12 +9,13 @@ namespace understory {
 struct SkyLight {
   glm::vec3 tint{0.95f, 0.98f, 1.0f};  // of the whole sky, linear RGB
   float ground_albedo = 0.12f;         // light from below, for surfaces that face down
-  float meteorological_range = 4000;   // m: distance at which haze leaves 2 % of the contrast
-  float exposure = 2.6f;
+  float meteorological_range = 20000;  // m: distance at which haze leaves 2 % of the contrast
+  float exposure = 1.8f;
 };
 
 /// Radiance of every pixel. Background: the CIE overcast sky, L = L_zenith (1 + 2 sin elevation)/3.
-/// Foliage colour varies by owner and along blades; the ground's by place. A function of the frame alone.
+/// Foliage colour varies by owner and along blades, the ground's by place; leaves and blades let light through.
+/// A function of the frame alone.
 LightPicture sky_light_picture(const Frame& frame, const SkyLight& sky = {});
 
 /// The same, developed.
