@@ -1,91 +1,43 @@
-// Scan-converts the marked triangles into the visibility buffer. Corners snap to 1/256 pixel and edges are exact
-// integers, inclusive: neighbours that share an edge leave no crack. Perspective-correct depth (1/z is linear on
-// screen). One work-item per TRIANGLES_PER_ITEM consecutive triangles.
+// Scan-converts triangles into the visibility buffer. Corners snap to 1/256 pixel and edges are exact integers,
+// inclusive: neighbours that share an edge leave no crack. Depth is perspective-correct (1/z is linear on screen).
+// One work-group per chunk; one work-item projects and culls W triangles in vector lanes, then draws those that are
+// left.
 #pragma OPENCL FP_CONTRACT OFF
-#include "kernels/shared/camera.h"
-#include "kernels/shared/guard_band.h"
+#include "kernels/shared/project_triangles.h"
+#include "kernels/shared/scan_convert.h"
 #include "kernels/shared/triangle_corners.h"
-#include "kernels/shared/visibility_buffer.h"
 
-#define SUBPIXELS 256
-
+// One corner of W triangles as the scalar loop reads it.
 typedef struct {
-  int x, y;         // 1/256 pixel
-  float inverse_z;  // 1/m
-} ScreenCorner;
+  int x[W], y[W];      // 1/256 pixel
+  float inverse_z[W];  // 1/m
+} CornerLanes;
 
-static inline ScreenCorner screen_corner(const CameraView* camera, ViewPoint v) {
-  ScreenCorner s;
-  s.inverse_z = 1.0f / v.z;
-  const float scale = camera->focal * s.inverse_z;
-  s.x = convert_int_rte(fma(v.x, scale, camera->centre_x) * SUBPIXELS);
-  s.y = convert_int_rte(fma(v.y, scale, camera->centre_y) * SUBPIXELS);
-  return s;
+static inline void store_lanes(ProjectedCorners corners, CornerLanes* lanes) {
+  STORE(snapped(corners.x), lanes->x, 0);
+  STORE(snapped(corners.y), lanes->y, 0);
+  STORE(corners.inverse_z, lanes->inverse_z, 0);
 }
 
-// First pixel whose centre is at or right of `fixed`, and last whose centre is at or left of it.
-static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
-static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
-
-static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, uint triangle,
-                                global VisibleTriangle* pixels) {
-  const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
-  const int right = min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1);
-  const int top = max(first_centre(min(a.y, min(b.y, c.y))), 0);
-  const int bottom = min(last_centre(max(a.y, max(b.y, c.y))), camera->height - 1);
-  if (left > right || top > bottom) return;
-  long area = (long)(b.x - a.x) * (c.y - a.y) - (long)(c.x - a.x) * (b.y - a.y);
-  if (area == 0) return;
-  if (area < 0) {
-    const ScreenCorner swap = b;
-    b = c;
-    c = swap;
-    area = -area;
-  }
-  // Edge functions at the first pixel centre, and their steps per pixel.
-  const int x0 = left * SUBPIXELS + SUBPIXELS / 2, y0 = top * SUBPIXELS + SUBPIXELS / 2;
-  long edge_a_row = (long)(c.x - b.x) * (y0 - b.y) - (long)(c.y - b.y) * (x0 - b.x);
-  long edge_b_row = (long)(a.x - c.x) * (y0 - c.y) - (long)(a.y - c.y) * (x0 - c.x);
-  long edge_c_row = (long)(b.x - a.x) * (y0 - a.y) - (long)(b.y - a.y) * (x0 - a.x);
-  const long a_right = (long)(b.y - c.y) * SUBPIXELS, a_down = (long)(c.x - b.x) * SUBPIXELS;
-  const long b_right = (long)(c.y - a.y) * SUBPIXELS, b_down = (long)(a.x - c.x) * SUBPIXELS;
-  const long c_right = (long)(a.y - b.y) * SUBPIXELS, c_down = (long)(b.x - a.x) * SUBPIXELS;
-  const float share = 1.0f / (float)area;
-  const size_t pixel_count = (size_t)camera->width * camera->height;
-
-  for (int y = top; y <= bottom; ++y) {
-    long edge_a = edge_a_row, edge_b = edge_b_row, edge_c = edge_c_row;
-    for (int x = left; x <= right; ++x) {
-      if ((edge_a | edge_b | edge_c) >= 0) {
-        const float wb = (float)edge_b * share, wc = (float)edge_c * share;
-        const float inverse_z = fma(wb, b.inverse_z - a.inverse_z, fma(wc, c.inverse_z - a.inverse_z, a.inverse_z));
-        offer_fragment(pixels, pixel_count, (size_t)y * camera->width + x, 1.0f / inverse_z, triangle);
-      }
-      edge_a += a_right;
-      edge_b += b_right;
-      edge_c += c_right;
-    }
-    edge_a_row += a_down;
-    edge_b_row += b_down;
-    edge_c_row += c_down;
-  }
+static inline ScreenCorner lane_corner(const CornerLanes* lanes, int lane) {
+  ScreenCorner corner;
+  corner.x = lanes->x[lane];
+  corner.y = lanes->y[lane];
+  corner.inverse_z = lanes->inverse_z[lane];
+  return corner;
 }
 
-static inline void rasterise(const CameraView* camera, Corners corners, global const float* x, global const float* y,
-                             global const float* z, uchar mark, uint triangle, global VisibleTriangle* pixels) {
-  ViewPoint polygon[CLIPPED_CORNERS];
-  polygon[0] = view_point(camera, x[corners.a], y[corners.a], z[corners.a]);
-  polygon[1] = view_point(camera, x[corners.b], y[corners.b], z[corners.b]);
-  polygon[2] = view_point(camera, x[corners.c], y[corners.c], z[corners.c]);
-  const int count = mark == 1 ? 3 : clip_to_guard_band(camera, polygon);
-  if (count < 3) return;
-  const ScreenCorner first = screen_corner(camera, polygon[0]);
-  ScreenCorner previous = screen_corner(camera, polygon[1]);
-  for (int i = 2; i < count; ++i) {
-    const ScreenCorner next = screen_corner(camera, polygon[i]);
-    scan_convert(camera, first, previous, next, triangle, pixels);
-    previous = next;
-  }
+// `marks`: coverage per lane. `first`: id of lane 0.
+static inline void draw_lanes(const CameraView* camera, ProjectedCorners a, ProjectedCorners b, ProjectedCorners c,
+                              const int* marks, uint first, global VisibleTriangle* pixels) {
+  CornerLanes as, bs, cs;
+  store_lanes(a, &as);
+  store_lanes(b, &bs);
+  store_lanes(c, &cs);
+  for (int lane = 0; lane < W; ++lane)
+    if (marks[lane] == 1)
+      scan_convert(camera, lane_corner(&as, lane), lane_corner(&bs, lane), lane_corner(&cs, lane), first + lane,
+                   pixels);
 }
 
 kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
@@ -93,21 +45,46 @@ kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
   if (i < count) pixels[i] = NOTHING_VISIBLE;
 }
 
-kernel void rasterise_mesh(global const uchar* marks, uint triangles, global const TriangleChunk* chunks,
-                           global const uint* index_a, global const uint* index_b, global const uint* index_c,
-                           global const float* x, global const float* y, global const float* z, const CameraView camera,
-                           global VisibleTriangle* pixels) {
-  const uint begin = get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, triangles);
-  for (uint t = begin; t < end; ++t)
-    if (marks[t])
-      rasterise(&camera, mesh_corners(chunks + t / CHUNK, t % CHUNK, index_a, index_b, index_c), x, y, z, marks[t], t,
-                pixels);
+kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint* index_a, global const uint* index_b,
+                           global const uint* index_c, global const float* x, global const float* y,
+                           global const float* z, const CameraView camera, global VisibleTriangle* pixels) {
+  global const TriangleChunk* chunk = chunks + get_group_id(0);
+  const uint lane = get_local_id(0) * W, t = chunk->first_index + lane;
+  const bits first = (bits)(chunk->first_vertex);
+  const bits ia = first + LOAD(index_a + t, 0), ib = first + LOAD(index_b + t, 0), ic = first + LOAD(index_c + t, 0);
+  const ProjectedCorners a =
+      project_corners(&camera, GATHER(real, x, ia, ), GATHER(real, y, ia, ), GATHER(real, z, ia, ));
+  const ProjectedCorners b =
+      project_corners(&camera, GATHER(real, x, ib, ), GATHER(real, y, ib, ), GATHER(real, z, ib, ));
+  const ProjectedCorners c =
+      project_corners(&camera, GATHER(real, x, ic, ), GATHER(real, y, ic, ), GATHER(real, z, ic, ));
+  const whole covered = coverage(&camera, a, b, c);
+  int marks[W];
+  STORE(covered, marks, 0);
+  const uint id = get_group_id(0) * CHUNK + lane;
+  draw_lanes(&camera, a, b, c, marks, id, pixels);
+  for (uint i = 0; i < W; ++i)
+    if (marks[i] == 2)
+      clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), x, y, z, id + i, pixels);
 }
 
-kernel void rasterise_grass(global const uchar* marks, uint first, uint end_triangle,
-                            global const TriangleChunk* chunks, global const float* x, global const float* y,
-                            global const float* z, const CameraView camera, global VisibleTriangle* pixels) {
-  const uint begin = first + get_global_id(0) * TRIANGLES_PER_ITEM, end = min(begin + TRIANGLES_PER_ITEM, end_triangle);
-  for (uint t = begin; t < end; ++t)
-    if (marks[t]) rasterise(&camera, grass_corners(chunks + t / CHUNK, t % CHUNK), x, y, z, marks[t], t, pixels);
+kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float* x,
+                            global const float* y, global const float* z, const CameraView camera,
+                            global VisibleTriangle* pixels) {
+  const uint chunk_index = first_chunk + get_group_id(0), lane = get_local_id(0) * W;
+  global const TriangleChunk* chunk = chunks + chunk_index;
+  const Corners corners = grass_corners(chunk, lane);
+  const ProjectedCorners a =
+      project_corners(&camera, LOAD(x + corners.a, 0), LOAD(y + corners.a, 0), LOAD(z + corners.a, 0));
+  const ProjectedCorners b =
+      project_corners(&camera, LOAD(x + corners.b, 0), LOAD(y + corners.b, 0), LOAD(z + corners.b, 0));
+  const ProjectedCorners c =
+      project_corners(&camera, LOAD(x + corners.c, 0), LOAD(y + corners.c, 0), LOAD(z + corners.c, 0));
+  const whole covered = coverage(&camera, a, b, c);
+  int marks[W];
+  STORE(covered, marks, 0);
+  const uint id = chunk_index * CHUNK + lane;
+  draw_lanes(&camera, a, b, c, marks, id, pixels);
+  for (uint i = 0; i < W; ++i)
+    if (marks[i] == 2) clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), x, y, z, id + i, pixels);
 }

@@ -47,8 +47,6 @@ void plan_geometry(const Contents& contents, Plan& plan) {
   if (contents.meshes) plan.passes.push_back({"pose_mesh", "pose_mesh", "plants, occluders or terrain"});
   if (contents.grass) plan.passes.push_back({"pose_grass", "pose_grass", "grass"});
   plan.passes.push_back({"clear_visible", "rasterise", "every frame"});
-  if (contents.meshes) plan.passes.push_back({"cull_mesh", "cull_triangles", "plants, occluders or terrain"});
-  if (contents.grass) plan.passes.push_back({"cull_grass", "cull_triangles", "grass"});
   if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", "plants, occluders or terrain"});
   if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass"});
   plan.passes.push_back({"resolve", "resolve", "every frame"});

@@ -38,7 +38,6 @@ struct FrameRunner::Impl {
   Geometry geometry;
   std::vector<SwaySeries> series;  // per World::grass
   Buffer<LimbPose> limbs;
-  Buffer<std::uint8_t> marks;
   VisibilityBuffer visible;
   FragmentPlanes planes;
   OwnerTables owners;
@@ -53,8 +52,6 @@ FrameRunner::Impl::Impl(Device& the_device, const World& the_world)
     : device(the_device), world(the_world), geometry(upload_geometry(device, world)) {
   const auto width = static_cast<std::size_t>(world.scene.image.width);
   const auto height = static_cast<std::size_t>(world.scene.image.height);
-  const std::size_t slots = std::size_t{geometry.triangles.chunk_count()} * triangles_per_chunk;
-  if (slots > 0) marks = Buffer<std::uint8_t>(device, slots, "triangle marks");
   visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
   owners = upload_owners(device, world.owners);
   if (geometry.has_mesh()) pose_mesh.emplace(device);
@@ -90,7 +87,7 @@ void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
       pose_grass->run(geometry.blades, pose.grass[field], series[field], range.first_blade, range.blades,
                       range.first_vertex, geometry.posed);
   }
-  rasterise->run(geometry.triangles, geometry.posed, camera, marks, visible);
+  rasterise->run(geometry.triangles, geometry.posed, camera, visible);
   resolve->run(visible, geometry.triangles, geometry.posed, geometry.blades, camera, static_cast<float>(-pose.eye.z),
                planes);
 }

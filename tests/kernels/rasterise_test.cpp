@@ -1,4 +1,4 @@
-// cull_triangles, rasterise and resolve against rays in double: coverage, depth, cracks, clipping, both buffer layouts.
+// rasterise and resolve against rays in double: coverage, depth, cracks, clipping, both buffer layouts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,10 +34,8 @@ Picture draw(const std::vector<glm::vec3>& vertices, const std::vector<std::uint
   Picture picture;
   picture.camera = camera_view(camera, image, glm::dvec2(0));
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  Buffer<std::uint8_t> marks(device, std::size_t{geometry.triangles.chunk_count()} * triangles_per_chunk, "marks");
   VisibilityBuffer visible{Buffer<std::uint32_t>(device, 2 * pixels, "visible")};
-  RasterisePass(device, true, false, wide_atomics)
-      .run(geometry.triangles, geometry.posed, picture.camera, marks, visible);
+  RasterisePass(device, true, false, wide_atomics).run(geometry.triangles, geometry.posed, picture.camera, visible);
   FragmentPlanes planes =
       allocate_planes(device, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), false);
   ResolvePass(device, false, wide_atomics)
