@@ -14,6 +14,7 @@
 
 #include "sim/error.hpp"
 #include "sim/files/gltf_limits.hpp"
+#include "sim/files/ply_limits.hpp"
 #include "sim/files/text.hpp"
 
 namespace understory {
@@ -46,6 +47,7 @@ void check_file(const std::filesystem::path& file) {
     refuse(file, fmt::format("{} bytes: a mesh file may have {} at most", bytes, largest_mesh_bytes));
   }
   if (is_gltf) check_gltf(file);
+  if (extension == ".ply") check_ply(file);
 }
 
 struct PositionHash {
@@ -155,7 +157,8 @@ RawMesh read_mesh(const std::filesystem::path& file, UpAxis up, const std::vecto
       importer.ReadFile(file.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType);
   if (!scene) {
     std::string reason = importer.GetErrorString();
-    if (reason.find("contains no faces") != std::string::npos) refuse(file, "the mesh has no faces");
+    if (reason.find("contains no faces") != std::string::npos || reason == "No meshes remaining")
+      refuse(file, "the mesh has no faces");
     refuse(file, "not a usable mesh: " + readable(reason));
   }
   if (!scene->mRootNode || scene->mNumMeshes == 0) refuse(file, "the mesh has no faces");

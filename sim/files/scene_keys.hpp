@@ -26,6 +26,7 @@ struct Range {
   std::optional<double> unset = {};  // the value in memory of a key that was left out and has no default to show
 };
 
+inline constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();  // JSON readers are signed
 inline constexpr double far = 1e8;  // m: no coordinate lies beyond; UTM northings are below 1e7
 
 constexpr Range coordinate() { return {-far, far, "m"}; }
@@ -142,8 +143,7 @@ void keys(Archive& a, SpeciesSource& species) {
   a.exactly_one({"generator", "mesh"});
   a.word("generator", species.generator, {"broadleaf", "conifer", "column", "shrub", "birch"}, "procedural preset");
   a.integer("leaves", species.leaves, 1, 2'000'000, "leaves of a generated plant; left out: the preset's", 0);
-  a.integer("variant", species.variant, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
-            "another individual of the same preset");
+  a.integer("variant", species.variant, std::uint64_t{0}, largest_seed, "another individual of the same preset");
   a.file("mesh", species.mesh, "a plant from a mesh: OBJ, PLY, glTF, GLB");
   a.up_axis("up", species.up, species.mesh);
   a.texts("leaf_materials", species.leaf_materials, "patterns of the material names that are leaves");
@@ -302,7 +302,7 @@ bool names_differ(const std::vector<Named>& all) {
 template <class Archive>
 void keys(Archive& a, Scene& scene) {
   a.text("name", scene.name, "title of the scene");
-  a.integer("seed", scene.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(), "of everything random");
+  a.integer("seed", scene.seed, std::uint64_t{0}, largest_seed, "of everything random");
   a.numbers("origin", components(scene.origin), {-1e9, 1e9, "m"}, "world coordinates of the scene's zero, e.g. UTM");
   a.choice("sky", scene.sky, {{Sky::dome, "dome"}, {Sky::sphere, "sphere"}},
            "where light comes from: above the horizon, or all around");

@@ -77,7 +77,11 @@ class SceneReader {
   void section_unless(const char* key, const char* word, bool& present, const char* help, Walk walk) {
     const Node* node = find(key);
     present = !(node && node->kind == Node::Kind::scalar && node->text == word);
-    if (present) section(key, help, walk);
+    if (node && present && node->kind != Node::Kind::map) {
+      check(false, key, std::string("'") + word + "' or a map of keys");
+    } else if (present) {
+      section(key, help, walk);
+    }
   }
 
   template <class Record>

@@ -183,6 +183,15 @@ Json build_schema() {
   return schema;
 }
 
+/// A number or list of numbers without needless digits: 0.5, 100, 1e+08.
+std::string plain(const Json& value) {
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (!value.is_array() || value.empty() || !value[0].is_number_float()) return value.dump();
+  std::string list;
+  for (const Json& one : value) list += (list.empty() ? "" : ", ") + plain(one);
+  return '[' + list + ']';
+}
+
 std::string type_text(const Json& type) {
   if (type.contains("enum")) {
     std::string words;
@@ -195,8 +204,8 @@ std::string type_text(const Json& type) {
   if (type.contains("maximum")) {
     const bool above = type.contains("exclusiveMinimum");
     const Json& low = above ? type["exclusiveMinimum"] : type["minimum"];
-    return fmt::format("{} {}{}..{}", type["type"].get<std::string>(), above ? ">" : "", low.dump(),
-                       type["maximum"].dump());
+    return fmt::format("{} {}{} to {}", type["type"].get<std::string>(), above ? "above " : "", plain(low),
+                       plain(type["maximum"]));
   }
   return type.value("type", "");
 }
@@ -209,7 +218,7 @@ void describe_keys(const Json& object, const std::string& prefix, std::string& o
     const std::string path = prefix + key;
     out += fmt::format("{:<40} {:<32} {}", path, is_named ? "names" : type_text(type),
                        property["description"].get<std::string>());
-    if (property.contains("default")) out += fmt::format(" ({})", property["default"].dump());
+    if (property.contains("default")) out += fmt::format(" ({})", plain(property["default"]));
     out += '\n';
     if (is_named) describe_keys(type["additionalProperties"], path + ".NAME.", out);
     if (is_list) describe_keys(type["items"], path + ".N.", out);

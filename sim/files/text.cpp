@@ -30,7 +30,7 @@ std::size_t edits(std::string_view from, std::string_view to) {
 std::string closest_word(std::string_view word, const std::vector<std::string>& candidates) {
   if (word.size() > 64) return {};
   std::string best;
-  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t fewest = word.size() / 3 + 2;  // one more than is taken for a slip
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edits(word, candidate);
     if (distance < fewest) {
