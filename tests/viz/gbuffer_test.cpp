@@ -1,7 +1,13 @@
 // Files of other renderers: which channels are taken, which are refused, and which camera comes out.
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <half.h>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -243,10 +249,49 @@ TEST(Gbuffer, OfBlenderMatchesItsOwnCamera) {
   for (std::size_t i = 0; i < object.size(); ++i) ASSERT_EQ(static_cast<float>(with_owner.frame.owner[i]), object[i]);
 }
 
-TEST(Gbuffer, HalfPositionsAndMissingFilesAreJudged) {
+TEST(Gbuffer, MissingFilesAndFilesWithoutPositionsAreRefused) {
+  EXPECT_THROW(read_gbuffer("/nowhere/none.exr"), Error);
   UNDERSTORY_NEEDS_DATA();
-  EXPECT_THROW(read_gbuffer(data_folder() / "gbuffer/gbuffer_walnut_meadow_ao.exr"), Error);  // no position
-  EXPECT_THROW(read_gbuffer(data_folder() / "gbuffer/none.exr"), Error);
+  EXPECT_THROW(read_gbuffer(data_folder() / "gbuffer/gbuffer_walnut_meadow_ao.exr"), Error);
+}
+
+/// The synthetic frame with 16-bit channels, `shift` metres further along x and y.
+void write_half(const std::filesystem::path& path, const Frame& frame, float shift) {
+  Imf::Header header(frame.width, frame.height);
+  Imf::FrameBuffer buffer;
+  std::vector<std::vector<half>> planes;
+  for (const char layer : {'P', 'N'})
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string name = std::string{layer, '.'} + "XYZ"[axis];
+      std::vector<half>& plane = planes.emplace_back();
+      for (std::size_t i = 0; i < frame.pixels(); ++i)
+        plane.emplace_back(layer == 'N' ? frame.normal[axis][i] : frame.position[axis][i] + (axis < 2 ? shift : 0));
+      header.channels().insert(name, Imf::Channel(Imf::HALF));
+      buffer.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(plane.data()), sizeof(half),
+                                     sizeof(half) * static_cast<std::size_t>(frame.width)));
+    }
+  Imf::OutputFile file(path.c_str(), header);
+  file.setFrameBuffer(buffer);
+  file.writePixels(frame.height);
+}
+
+TEST(Gbuffer, HalfPositionsAreToldAndFarFromTheOriginRefused) {
+  const TemporaryFolder folder;
+  Frame frame = synthetic_frame(96, 64);
+  for (std::size_t i = 0; i < frame.pixels(); ++i)  // nothing farther than 30 m
+    if (!(frame.depth[i] < 30))
+      for (std::size_t axis = 0; axis < 3; ++axis) frame.normal[axis][i] = 0;
+  GbufferOptions options;
+  options.camera = Camera{{0.3, -4, 1.7}, {0, 6, 1.5}, 0.9, 0.05};
+  write_half(folder / "near.exr", frame, 0);
+  EXPECT_THAT(read_gbuffer(folder / "near.exr", options).notes, testing::Contains(HasSubstr("16-bit")));
+  write_half(folder / "far.exr", frame, 2000);
+  try {
+    read_gbuffer(folder / "far.exr", options);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("far.exr"), HasSubstr("32 bits")));
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Channels by role, then background, camera and space, then a frame as our own passes expect it.
+// Channels by role, then background, then camera and space (gbuffer_camera), then a frame as our own passes expect it.
 #include "viz/exr/gbuffer.hpp"
 
 #include <fmt/format.h>
@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "sim/error.hpp"
-#include "viz/exr/camera_fit.hpp"
 #include "viz/exr/channel_roles.hpp"
 #include "viz/exr/frame_exr.hpp"
-#include "viz/exr/header_camera.hpp"
+#include "viz/exr/gbuffer_camera.hpp"
 #include "viz/exr/image.hpp"
 
 namespace understory {
@@ -23,18 +21,13 @@ constexpr double noticeable_spacing = 1e-3;  // m, between neighbouring half flo
 constexpr double useless_spacing = 0.05;     // m: refused
 constexpr float background_depth = 1e9f;     // Blender writes 1e10
 
-struct Planes {
-  std::array<Plane, 3> position, normal;
-  Plane depth, alpha, owner;  // empty when there is none
-};
-
-Planes read_planes(const std::filesystem::path& path, const ExrHeader& header, const ChannelRoles& roles) {
+GbufferPlanes read_planes(const std::filesystem::path& path, const ExrHeader& header, const ChannelRoles& roles) {
   std::vector<std::string> names = roles.position.names;
   names.insert(names.end(), roles.normal.names.begin(), roles.normal.names.end());
   for (const auto* role : {&roles.depth, &roles.alpha, &roles.owner})
     if (role->has_value()) names.push_back((*role)->names.front());
   std::vector<Plane> planes = read_exr_floats(path, header, names);
-  Planes result;
+  GbufferPlanes result;
   std::size_t next = 0;
   for (Plane& plane : result.position) plane = std::move(planes[next++]);
   for (Plane& plane : result.normal) plane = std::move(planes[next++]);
@@ -44,7 +37,7 @@ Planes read_planes(const std::filesystem::path& path, const ExrHeader& header, c
   return result;
 }
 
-std::vector<std::uint8_t> find_surface(const Planes& planes) {
+std::vector<std::uint8_t> find_surface(const GbufferPlanes& planes) {
   std::vector<std::uint8_t> surface(planes.position[0].size(), 1);
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const glm::vec3 p(planes.position[0][i], planes.position[1][i], planes.position[2][i]);
@@ -58,7 +51,7 @@ std::vector<std::uint8_t> find_surface(const Planes& planes) {
 }
 
 /// Half floats have 11 significant bits: their spacing at the largest coordinate, metres.
-void guard_precision(const ExrHeader& header, const ChannelRoles& roles, const Planes& planes,
+void guard_precision(const ExrHeader& header, const ChannelRoles& roles, const GbufferPlanes& planes,
                      const std::vector<std::uint8_t>& surface, std::vector<std::string>& notes) {
   const auto is_half = [&](const std::string& name) { return header.find(name)->sample == ExrSample::half_float; };
   if (std::none_of(roles.position.names.begin(), roles.position.names.end(), is_half)) return;
@@ -73,82 +66,8 @@ void guard_precision(const ExrHeader& header, const ChannelRoles& roles, const P
   if (spacing > noticeable_spacing) notes.push_back("warning: " + text);
 }
 
-void apply(const glm::dmat4& transform, double w, std::array<Plane, 3>& planes) {
-  for (std::size_t i = 0; i < planes[0].size(); ++i) {
-    const glm::dvec4 v = transform * glm::dvec4(planes[0][i], planes[1][i], planes[2][i], w);
-    for (int axis = 0; axis < 3; ++axis) planes[static_cast<std::size_t>(axis)][i] = static_cast<float>(v[axis]);
-  }
-}
-
-glm::dvec3 eye_of(const glm::dmat4& world_to_camera) { return glm::dvec3(glm::inverse(world_to_camera)[3]); }
-
-/// Positions relative to the camera let the solved eye lie at the zero while the header puts it elsewhere.
-bool is_camera_space(const glm::dmat4& header_camera, const std::optional<FittedCamera>& fit) {
-  if (!fit) return false;
-  const glm::dvec3 solved = eye_of(fit->world_to_camera), told = eye_of(header_camera);
-  return glm::length(solved) < 0.1 * glm::length(told - solved);
-}
-
-glm::dmat4 look_at(const Camera& camera) {
-  const glm::dvec3 view = camera.target - camera.position;
-  const bool vertical = glm::length(glm::dvec2(view)) < 1e-6 * glm::length(view);
-  return glm::lookAt(camera.position, camera.target, vertical ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
-}
-
-void tell_fit(const FittedCamera& fit, std::vector<std::string>& notes) {
-  if (fit.error_pixels > 0.5)
-    notes.push_back(
-        fmt::format("warning: positions lie up to {:.2f} pixels from the pixels that show them; "
-                    "were they filtered or is it no pinhole camera?",
-                    fit.error_pixels));
-  if (fit.off_centre_pixels > 1)
-    notes.push_back(
-        fmt::format("warning: the optical axis is {:.1f} pixels off the image's middle; "
-                    "the field of view told is about the middle",
-                    fit.off_centre_pixels));
-}
-
-/// Header, else option, else solved; moves camera-space planes into the world when the header tells how.
-void settle_camera(const ExrHeader& header, const GbufferOptions& options, const std::vector<std::uint8_t>& surface,
-                   Planes& planes, Gbuffer& result) {
-  Frame& frame = result.frame;
-  const auto told = camera_from_header(header.attributes);
-  const auto fit = fit_camera(frame.width, frame.height, planes.position, surface);
-  const bool camera_space =
-      options.space == GbufferSpace::camera ||
-      (options.space == GbufferSpace::automatic && told.has_value() && is_camera_space(told->world_to_camera, fit));
-  if (fit) {
-    frame.vertical_fov = fit->vertical_fov;
-    tell_fit(*fit, result.notes);
-  }
-  if (told) {
-    frame.world_to_camera = told->world_to_camera;
-    result.notes.push_back(fmt::format("camera: header worldToCamera{}", told->transposed ? " (column vectors)" : ""));
-  } else if (options.camera) {
-    frame.world_to_camera = look_at(*options.camera);
-    frame.vertical_fov = options.camera->vertical_fov;
-    result.notes.push_back("camera: as given");
-  } else if (fit) {
-    frame.world_to_camera = fit->world_to_camera;
-    result.notes.push_back(fmt::format("camera: solved from positions, within {:.3f} pixels", fit->error_pixels));
-  } else {
-    throw Error(ErrorKind::invalid_input,
-                "no camera in the header, and positions that are few, flat or seen from infinity determine none; "
-                "give one with --camera");
-  }
-  if (!camera_space) return void(result.notes.push_back("space: world"));
-  if (!told && !options.camera)
-    throw Error(ErrorKind::invalid_input, "positions in camera space need a camera: none in the header and none given");
-  // Files in camera space use the header's axes: +z forward.
-  glm::dmat4 to_world = glm::inverse(frame.world_to_camera);
-  to_world[2] *= -1.0;
-  apply(to_world, 1, planes.position);
-  apply(to_world, 0, planes.normal);
-  result.notes.push_back("space: camera, moved to the world");
-}
-
 /// Unit normals to the viewer, depth, validity; zeros where nothing is seen.
-void fill_frame(Planes& planes, const std::vector<std::uint8_t>& surface, Gbuffer& result) {
+void fill_frame(GbufferPlanes& planes, const std::vector<std::uint8_t>& surface, Gbuffer& result) {
   Frame& frame = result.frame;
   const glm::dvec3 eye = eye_of(frame.world_to_camera);
   frame.depth.assign(frame.pixels(), std::numeric_limits<float>::infinity());
@@ -224,7 +143,7 @@ Gbuffer read_gbuffer(const std::filesystem::path& path, const GbufferOptions& op
     result.frame.width = header.width;
     result.frame.height = header.height;
     result.frame.owners.push_back({});
-    Planes planes = read_planes(path, header, roles);
+    GbufferPlanes planes = read_planes(path, header, roles);
     const auto surface = find_surface(planes);
     guard_precision(header, roles, planes, surface, result.notes);
     settle_camera(header, options, surface, planes, result);
