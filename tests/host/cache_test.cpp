@@ -53,7 +53,7 @@ TEST(CacheWorker, BuildsAndRuns) {
   const int programs = wanted ? std::atoi(wanted) : 2;
   for (int variant = 0; variant < programs; ++variant) {
     Buffer<float> out(device, values.size(), "out");
-    Kernel copy(device, "roofline", "copy_plane", "copy", "-DVARIANT=" + std::to_string(variant));
+    Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1 -DVARIANT=" + std::to_string(variant));
     copy.launch(values.size(), 64, in, out, static_cast<unsigned>(values.size()));
     ASSERT_EQ(out.read(), values);
   }

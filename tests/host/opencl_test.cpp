@@ -109,7 +109,7 @@ class CopyKernel : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(CopyKernel, CopiesEveryElementAndNothingBeyond) {
   Device device;
-  Kernel copy(device, "roofline", "copy_plane", "copy");
+  Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1");
   const std::vector<float> values = ramp(2 * odd_count);
   Buffer<float> in(device, std::span<const float>(values), "in"), out(device, values.size(), "out");
   out.write(std::vector<float>(values.size(), -1));
@@ -122,7 +122,8 @@ INSTANTIATE_TEST_SUITE_P(LocalSizes, CopyKernel, testing::Values(0, 1, 7, 64, 10
 
 TEST(Kernels, SumTheirTimesPerPass) {
   Device device;
-  Kernel copy(device, "roofline", "copy_plane", "copy"), also(device, "roofline", "copy_plane", "other");
+  Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1"),
+      also(device, "roofline", "copy_plane", "other", "-DW=1");
   Buffer<float> in(device, std::span<const float>(ramp(odd_count)), "in"), out(device, odd_count, "out");
   EXPECT_TRUE(device.take_pass_times().empty());
   for (int i = 0; i < 5000; ++i) copy.launch(odd_count, 64, in, out, static_cast<unsigned>(odd_count));
@@ -136,7 +137,7 @@ TEST(Kernels, SumTheirTimesPerPass) {
 
 TEST(Kernels, CheckTheirArguments) {
   Device device;
-  Kernel copy(device, "roofline", "copy_plane", "copy");
+  Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1");
   Buffer<float> plane(device, 4, "plane");
   const auto text_of = [&](auto... arguments) {
     return message_of(ErrorKind::unexpected, [&] { copy.launch(4, 64, arguments...); });
