@@ -1,4 +1,4 @@
-// Reports how this device lays out the records that the host writes: per field its offset and size, per record its size.
+// Reports how this device lays out the records that it shares with the host: per field its offset and size, per record its size.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/record_fields.h"
 

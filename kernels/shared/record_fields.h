@@ -1,7 +1,9 @@
-// The fields of every record of records.h, for the test that compares how host and device lay them out.
+// The fields of every record that host and device share, for the test that compares how host and device lay them out.
 #ifndef UNDERSTORY_RECORD_FIELDS_H
 #define UNDERSTORY_RECORD_FIELDS_H
+#include "kernels/shared/ground_cover.h"
 #include "kernels/shared/records.h"
+#include "kernels/shared/tile_occlusion.h"
 
 /// Applies `field(record, name)` to each field, in the order of declaration, and `record(name)` after its last.
 #define UNDERSTORY_RECORD_FIELDS(record, field)                                                                     \
@@ -23,6 +25,13 @@
   field(CrownRecord, x) field(CrownRecord, y) field(CrownRecord, z) field(CrownRecord, radius)                      \
   field(CrownRecord, centre_x) field(CrownRecord, centre_y) field(CrownRecord, centre_z)                            \
   field(CrownRecord, alpha_rho) field(CrownRecord, to_unit) field(CrownRecord, volume_scale)                        \
-  field(CrownRecord, ambient) field(CrownRecord, extinction) field(CrownRecord, padding_) record(CrownRecord)
+  field(CrownRecord, ambient) field(CrownRecord, extinction) field(CrownRecord, padding_) record(CrownRecord)    \
+  field(GroundCoverGrid, low_x) field(GroundCoverGrid, low_y) field(GroundCoverGrid, cells_per_metre_x)             \
+  field(GroundCoverGrid, cells_per_metre_y) field(GroundCoverGrid, columns) field(GroundCoverGrid, rows)            \
+  field(GroundCoverGrid, padding_) record(GroundCoverGrid)                                                          \
+  field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
+  field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
+  field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, listed) field(TileOcclusion, error)        \
+  field(TileOcclusion, padding_) record(TileOcclusion)
 
 #endif
