@@ -189,7 +189,7 @@ void keys(Archive& a, PlantPlacement& plants) {
       scatter.require({"region"});
       scatter.record("region", plants.region, "rectangle that is planted");
       scatter.number("spacing", plants.spacing, {0.01, 1e6, "m"}, "no two of them are closer");
-      scatter.integer("count", plants.count, 1, 10'000'000, "at most so many; left out: as many as fit", 0);
+      scatter.integer("count", plants.count, 1, 10'000'000, "how many; left out: as many as fit", 0);
       scatter.numbers("scale", components(plants.scale), {0.001, 1000, ""}, "least and greatest size");
       scatter.check(plants.scale[0] <= plants.scale[1], "scale", "the least first, then the greatest");
     });
