@@ -1,0 +1,170 @@
+// What a scene does not hold is not planned, not built, not allocated and not run.
+#include "host/frame/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "tests/support/errors.hpp"
+#include "tests/support/frames.hpp"
+
+namespace understory {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// What one frame of a scene took.
+struct Taken {
+  std::set<std::string> passes, programs;  // planned
+  std::set<std::string> run, built;        // names in the timings, programs on the device
+  std::uint64_t bytes = 0;
+  Frame frame;
+};
+
+Taken render_one(const Scene& scene) {
+  const World world = build_world(scene);
+  Device device;
+  FrameRunner runner(device, world);
+  Taken taken;
+  taken.frame = runner.render(0, 0.5);
+  for (const PlannedPass& pass : runner.plan().passes) {
+    EXPECT_FALSE(pass.because.empty()) << pass.name;
+    taken.passes.insert(pass.name);
+    taken.programs.insert(pass.program);
+  }
+  for (const auto& [name, milliseconds] : taken.frame.pass_ms) taken.run.insert(name);
+  for (const std::string& program : device.programs_built()) taken.built.insert(program);
+  taken.bytes = device.buffer_bytes();
+  return taken;
+}
+
+/// Every planned pass ran and no other; every planned program was built and no other.
+void expect_as_planned(const Taken& taken) {
+  EXPECT_EQ(taken.run, taken.passes);
+  std::set<std::string> planned = taken.programs;
+  if (planned.contains("solid_angle")) planned.insert("tile_spheres");  // its first kernel
+  EXPECT_EQ(taken.built, planned);
+}
+
+TEST(Plan, OfAFullSceneHoldsEveryKindOfPass) {
+  const Taken taken = render_one(meadow_view());
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, testing::IsSupersetOf({"pose_mesh", "pose_grass", "rasterise_mesh", "rasterise_grass",
+                                                   "resolve", "ambient", "sphere-cap", "grass-height", "open-dome",
+                                                   "solid-angle-cosine", "combine"}));
+}
+
+TEST(Plan, WithoutGrassHasNoGrassProgramAndNoGrassBuffer) {
+  Scene scene = meadow_view();
+  const Taken with = render_one(scene);
+  scene.grass.clear();
+  const Taken without = render_one(scene);
+  expect_as_planned(without);
+  for (const std::set<std::string>* names : {&without.passes, &without.run, &without.built})
+    EXPECT_THAT(*names, Not(Contains(HasSubstr("grass"))));
+  EXPECT_THAT(without.passes, Not(Contains("ambient"))) << "the ground has no grass on it";
+  EXPECT_THAT(without.frame.height_above_root, IsEmpty());
+  EXPECT_EQ(with.frame.height_above_root.size(), with.frame.pixels());
+  // Per blade 11 numbers at rest and 7 vertices of 3; two fields of 1300 to 1400 blades.
+  EXPECT_GE(with.bytes - without.bytes, 2600u * (11 + 7 * 3) * sizeof(float));
+}
+
+TEST(Plan, WithGrassThatNoMethodAsksAboutHasNoHeights) {
+  Scene scene = meadow_view();
+  const std::uint64_t with_heights = render_one(scene).bytes;
+  scene.methods.grass = "ambient";
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.frame.height_above_root, IsEmpty());
+  EXPECT_LT(taken.bytes, with_heights);
+}
+
+TEST(Plan, WithoutPlantsHasNoCrownPass) {
+  Scene scene = meadow_view();
+  scene.species.clear();
+  scene.plants.clear();
+  scene.methods.crowns = "solid-angle-exact";
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.built, Not(Contains("sphere_cap")));
+  EXPECT_THAT(taken.passes, Not(Contains("solid-angle-exact")));
+  EXPECT_THAT(taken.passes, Contains("solid-angle-cosine")) << "of the occluders";
+}
+
+TEST(Plan, WithoutOccludersHasOnePassForCrowns) {
+  Scene scene = meadow_view();
+  scene.occluders.clear();
+  scene.methods.occluders = "solid-angle-exact";
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, Not(Contains("solid-angle-exact")));
+  scene.methods.crowns = "none";
+  EXPECT_THAT(render_one(scene).built, Not(Contains("solid_angle")));
+}
+
+TEST(Plan, WithoutTerrainKnowsNoGround) {
+  Scene scene = meadow_view();
+  scene.has_terrain = false;
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, Not(Contains("ambient")));
+}
+
+TEST(Plan, OfGrassAloneHasNoMeshPass) {
+  Scene scene = meadow_view();
+  scene.has_terrain = false;
+  scene.species.clear();
+  scene.plants.clear();
+  scene.occluders.clear();
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, Not(Contains(HasSubstr("mesh"))));
+  EXPECT_THAT(taken.built, Not(Contains("pose_mesh")));
+}
+
+TEST(Plan, OfNothingDrawsTheBackground) {
+  Scene scene = open_ground();
+  scene.has_terrain = false;
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  for (std::size_t i = 0; i < taken.frame.pixels(); ++i) {
+    EXPECT_TRUE(is_background(taken.frame, i));
+    EXPECT_EQ(taken.frame.visibility[i], 1);
+  }
+}
+
+TEST(Plan, UnderASphereOfSkyHasNoHorizon) {
+  Scene scene = meadow_view();
+  scene.sky = Sky::sphere;
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.built, Not(Contains("open_dome")));
+  EXPECT_FALSE(taken.frame.terms.contains("open-dome"));
+}
+
+TEST(Plan, RefusesMethodsThatDoNotExist) {
+  const World world = build_world(open_ground());
+  Methods methods;
+  methods.tree = "spherecap";
+  const std::string message = message_of(ErrorKind::invalid_input, [&] { make_plan(world, methods); });
+  EXPECT_THAT(message, HasSubstr("methods.tree"));
+  EXPECT_THAT(message, HasSubstr("'spherecap'"));
+  EXPECT_THAT(message, HasSubstr("ellipsoid-cap"));
+  methods = {};
+  methods.occluders = "grid";
+  EXPECT_THAT(message_of(ErrorKind::invalid_input, [&] { make_visibility_plan(nullptr, methods); }),
+              HasSubstr("methods.occluders"));
+}
+
+TEST(Plan, OfForeignPlanesWithoutASceneIsTheOpenDome) {
+  const Plan plan = make_visibility_plan(nullptr, {});
+  ASSERT_EQ(plan.passes.size(), 2u);
+  EXPECT_TRUE(plan.has("open-dome"));
+  EXPECT_TRUE(plan.has("combine"));
+}
+
+}  // namespace
+}  // namespace understory
