@@ -1,3 +1,4 @@
+// Owners, crowns and spheres on a grid; fragments by tile from counter-based chance.
 #include "bench/fragments.hpp"
 
 #include <array>

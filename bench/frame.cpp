@@ -1,3 +1,4 @@
+// One cold frame, then warm ones, each at its own time; the last is drawn twice and must be the same.
 #include "bench/frame.hpp"
 
 #include <algorithm>

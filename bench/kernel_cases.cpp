@@ -1,3 +1,4 @@
+// The table of kernel benchmarks. References are the shared formulas in double, fragment by fragment.
 #include "bench/kernel_cases.hpp"
 
 #include <memory>

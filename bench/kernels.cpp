@@ -1,3 +1,4 @@
+// First the answer, then the time, by turns with the plane reader; last which ceiling is near.
 #include "bench/kernels.hpp"
 
 #include <algorithm>

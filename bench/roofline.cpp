@@ -1,3 +1,4 @@
+// Kernels of roofline.cl, launched in the shape of the visibility kernels.
 #include "bench/roofline.hpp"
 
 #include <algorithm>

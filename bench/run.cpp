@@ -1,3 +1,4 @@
+// All benchmarks in one run, and what changed between two.
 #include <algorithm>
 
 #include "bench/frame.hpp"

@@ -1,3 +1,4 @@
+// Two clocks around each launch, and order statistics of the samples.
 #include "bench/timing.hpp"
 
 #include <algorithm>

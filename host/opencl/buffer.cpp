@@ -1,3 +1,4 @@
+// Allocation with the limits in the message, and blocking transfers within bounds.
 #include "host/opencl/buffer.hpp"
 
 #include <algorithm>

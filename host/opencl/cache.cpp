@@ -1,3 +1,4 @@
+// What the commands `cache info` and `cache clear` see and do.
 #include "host/opencl/cache.hpp"
 
 #include <system_error>

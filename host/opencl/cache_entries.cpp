@@ -1,3 +1,4 @@
+// Walks PoCL's cache folder, recognises files that are cut off, and keeps the list of checksums under a lock.
 #include "host/opencl/cache_entries.hpp"
 
 #include <elf.h>

@@ -1,3 +1,4 @@
+// Lists, chooses and opens devices; sums the times of launches per pass.
 #include "host/opencl/device.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Argument checks and launches.
 #include "host/opencl/kernel.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// PoCL's environment: signal handler, cache folder of this version and processor, repair before first use.
 #include "host/opencl/runtime.hpp"
 
 #include <sys/stat.h>

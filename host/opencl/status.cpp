@@ -1,3 +1,4 @@
+// Names of the codes that this project can meet.
 #include "host/opencl/status.hpp"
 
 #include "host/opencl/opencl.hpp"
