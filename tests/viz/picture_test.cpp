@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <thread>
 
 #include "sim/error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -14,6 +16,7 @@
 #include "viz/vtk/false_colour.hpp"
 #include "viz/vtk/frame_pictures.hpp"
 #include "viz/vtk/movie.hpp"
+#include "viz/vtk/ogg_serial.hpp"
 #include "viz/vtk/png.hpp"
 #include "viz/vtk/sky_light.hpp"
 #include "viz/vtk/text.hpp"
@@ -240,6 +243,21 @@ TEST(Movie, HoldsEveryFrameAtItsSizeAndRate) {
   EXPECT_EQ(facts.height, 90);
   EXPECT_EQ(facts.rate, 24);
   EXPECT_GE(facts.packets, 3 + 7);  // three headers, then a packet a frame
+}
+
+TEST(Movie, IsAFunctionOfItsPictures) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name) {
+    MovieWriter movie(folder / name, 24);
+    for (int i = 0; i < 3; ++i) movie.add(sky_lit_picture(synthetic_frame(150, 90, i / 24.0)));
+    movie.finish();
+    return bytes_of(folder / name);
+  };
+  const std::string first = write("first.ogv");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // the writer's chance changes with the second
+  EXPECT_TRUE(first == write("second.ogv"));
+  std::filesystem::resize_file(folder / "first.ogv", first.size() - 1);
+  EXPECT_THROW(set_ogg_serial_number(folder / "first.ogv", 1), Error) << "a movie that is cut off";
 }
 
 TEST(Movie, LeavesNothingWhenGivenUp) {

@@ -16,6 +16,7 @@
 
 #include "sim/error.hpp"
 #include "sim/files/atomic_file.hpp"
+#include "viz/vtk/ogg_serial.hpp"
 #include "viz/vtk/picture_image.hpp"
 #include "viz/vtk/vtk_errors.hpp"
 
@@ -77,6 +78,7 @@ void MovieWriter::finish() {
   if (!impl_->started) throw Error(ErrorKind::input_output, impl_->path.string() + ": a movie without pictures");
   impl_->close();
   impl_->check();
+  set_ogg_serial_number(impl_->temporary, 1);
   write_atomically(impl_->path, [&](const std::filesystem::path& temporary) {
     std::filesystem::rename(impl_->temporary, temporary);
   });

@@ -8,6 +8,7 @@
 namespace understory {
 
 /// Writes under a temporary name; the movie appears when `finish` is called. Without it nothing is left.
+/// The same pictures give the same bytes.
 class MovieWriter {
  public:
   /// `frames_per_second` is rounded to a whole number, at least 1. Throws Error(input_output).
