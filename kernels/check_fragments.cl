@@ -26,8 +26,8 @@ kernel void check_fragments(global const float* position_x, global const float* 
   const truth unit = fabs(fma(a, a, fma(b, b, c * c)) - REAL(1.0)) < UNIT_TOLERANCE;
   const truth drawn = (codes & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u);
   // A normal without a direction cannot be mended.
-  const truth lost = drawn & !(finite & (largest > REAL(1e-30)));
-  const truth mended = drawn & finite & (largest > REAL(1e-30)) & !unit;
+  const truth lost = drawn & NOT(finite & (largest > REAL(1e-30)));
+  const truth mended = drawn & finite & (largest > REAL(1e-30)) & NOT(unit);
 
   STORE(PICK(mended, u * shrink, a), normal_x, i);
   STORE(PICK(mended, v * shrink, b), normal_y, i);

@@ -28,7 +28,7 @@ kernel void shade_ellipsoid_cap(global const float* position_x, global const flo
   for (truth left = ALL_LANES; ANY(left);) {
     const uint row = next_owner(owners_here, left);
     const truth lanes = left & (owners_here == (bits)(row));
-    left &= !lanes;
+    left &= NOT(lanes);
     const int crown = owner_crown[row];
     if (crown < 0 || crown >= (int)crown_count) continue;
     global const CrownRecord* shell = crowns + crown;

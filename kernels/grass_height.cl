@@ -16,6 +16,6 @@ kernel void shade_grass_height(global const float* height_above_root, global con
   const real height = LOAD(height_above_root, i), total = LOAD(blade_length, i);
   STORE(PICK(is_blade, grass_height(height, total, LOAD(normal_z, i)), REAL(1.0)), visibility, i);
   const truth within = (height >= REAL(0.0)) & (height <= total) & (total > REAL(0.0));
-  const bits flag = PICK(is_blade & !within, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u));
+  const bits flag = PICK(is_blade & NOT(within), (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u));
   STORE(LOAD(validity, i) | flag, validity, i);
 }

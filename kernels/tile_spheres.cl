@@ -1,7 +1,7 @@
 // Sorts the spheres for every tile of 16 x 16 fragments (shared/fragment_tiles.h): those that no fragment of the tile can
 // see are left out, distant ones are folded into the tile's far occlusion, the others are listed for solid_angle.cl.
 // Each fold changes V by at most `each`, all of a tile together by at most `budget`. One work-item per tile; built with
-// W = 16: 16 fragments, then 16 spheres, at a time.
+// W = 16 (16 fragments, then 16 spheres, at a time) and -DSHARE as solid_angle.cl.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/tile_spheres.h"
 
@@ -38,7 +38,7 @@ kernel void list_tile_spheres(global const float* position_x, global const float
     const truth folded = choose_folded(view, lanes, reach, each, budget, &field);
     fold(view, lanes, reach, folded, &field);
     int kept[W];
-    STORE(reach.seen & !folded, kept, 0);
+    STORE(reach.seen & NOT(folded), kept, 0);
     for (uint lane = 0; lane < W; ++lane)
       if (kept[lane]) {
         if (listed < capacity) lists[tile * capacity + listed] = first + lane;

@@ -3,7 +3,7 @@
 //   for (truth left = ALL_LANES; ANY(left);) {
 //     const uint row = next_owner(owner, left);
 //     const truth lanes = left & (owner == (bits)(row));
-//     left &= !lanes;
+//     left &= NOT(lanes);
 //     ... one row, for `lanes`
 //   }
 #ifndef UNDERSTORY_OWNER_TABLE_H
@@ -42,7 +42,7 @@ SHARED bits owner_column(global const uint* column, bits owner) {
   for (truth left = ALL_LANES; ANY(left);) {
     const uint row = next_owner(owner, left);
     const truth lanes = left & (owner == (bits)(row));
-    left &= !lanes;
+    left &= NOT(lanes);
     value = PICK(lanes, (bits)(column[row]), value);
   }
   return value;

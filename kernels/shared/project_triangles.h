@@ -53,7 +53,7 @@ static inline whole coverage(const CameraView* camera, ProjectedCorners a, Proje
   const truth ahead = max(a.z, max(b.z, c.z)) > near_plane;
   const truth unclipped =
       (min(a.z, min(b.z, c.z)) > near_plane) & (max(-low_x, high_x) < guard) & (max(-low_y, high_y) < guard);
-  return PICK(ahead & unclipped & covers, (whole)(1), PICK(ahead & !unclipped, (whole)(2), (whole)(0)));
+  return PICK(ahead & unclipped & covers, (whole)(1), PICK(ahead & NOT(unclipped), (whole)(2), (whole)(0)));
 }
 
 #endif

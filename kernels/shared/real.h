@@ -26,6 +26,7 @@ typedef int truth;
 typedef int whole;
 typedef uint bits;
 #define PICK(condition, yes, no) ((condition) ? (yes) : (no))
+#define NOT(condition) (!(condition))
 #define ANY(condition) (condition)
 #define LOAD(plane, i) (plane)[i]
 #define STORE(value, plane, i) (plane)[i] = (value)
@@ -43,6 +44,7 @@ typedef JOIN(int, W) truth;
 typedef JOIN(int, W) whole;
 typedef JOIN(uint, W) bits;
 #define PICK(condition, yes, no) select(no, yes, condition)
+#define NOT(condition) (~(condition))
 #define ANY(condition) any(condition)
 #define LOAD(plane, i) JOIN(vload, W)(i, plane)
 #define STORE(value, plane, i) JOIN(vstore, W)(value, i, plane)

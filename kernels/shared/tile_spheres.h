@@ -97,7 +97,7 @@ SHARED truth choose_folded(const TileView view, const SphereLanes s, const Spher
                            float budget, private FarField* field) {
   const bits bit = (bits)(1u) << (TO_BITS(s.group) & (bits)(31u));
   const truth own = (s.group >= 0) & ((bit & (bits)(view.groups)) != (bits)(0u));
-  const truth cheap = bounds.seen & !own & (bounds.error <= (real)(each));
+  const truth cheap = bounds.seen & NOT(own) & (bounds.error <= (real)(each));
   const float all = total(PICK(cheap, bounds.error, REAL(0.0)));
   if (field->error + all > budget) return (truth)(0);
   field->error += all;
@@ -112,7 +112,7 @@ SHARED void fold(const TileView view, const SphereLanes s, const SphereBounds bo
   const real ux = dx * inverse, uy = dy * inverse, uz = dz * inverse;
   const real ratio = s.radius * inverse;
 
-  const truth flat = folded & bounds.one_normal, quadratic = folded & !bounds.one_normal;
+  const truth flat = folded & bounds.one_normal, quadratic = folded & NOT(bounds.one_normal);
   const real inverse_radius = REAL(1.0) / s.radius;
   const real share = s.opacity * SHARE(dx * inverse_radius, dy * inverse_radius, dz * inverse_radius,
                                        (real)(view.normal[0]), (real)(view.normal[1]), (real)(view.normal[2]));
