@@ -74,6 +74,7 @@ int compute_frames(const RunOptions& options, const Scene& scene, const std::vec
   FrameRunner runner(device, world);
   record.plan.clear();
   for (const PlannedPass& pass : runner.plan().passes) record.plan.push_back(pass.name);
+  add_programs(device, record);
   folder.write(record);
 
   const FrameFiles files(folder.path(), record, scene.methods);

@@ -41,13 +41,23 @@ Json validity_of_all(const RunRecord& record) {
   return json;
 }
 
+/// The part of a device's description that decides results; its memory and free threads change from start to start.
+std::string device_identity(const std::string& device) {
+  if (device.empty()) return "";
+  const Json all = Json::parse(device);
+  Json kept = Json::object();
+  for (const char* key : {"platform", "name", "version", "driver", "vector_width", "atomic64"})
+    if (all.contains(key)) kept[key] = all.at(key);
+  return kept.dump();
+}
+
 /// The keys that must agree, by name.
 std::vector<std::pair<std::string, std::string>> identity(const RunRecord& record) {
   return {{"version", record.version},
           {"program (SHA-256 of the executable)", record.program_sha256},
           {"scene (with --set and the method options)", record.scene_sha256},
           {"input files", Json(record.inputs).dump()},
-          {"device", record.device},
+          {"device", device_identity(record.device)},
           {"size", fmt::format("{}x{}", record.width, record.height)},
           {"supersample", std::to_string(record.supersample)},
           {"dump", fmt::format("{}", fmt::join(record.dumps, ","))}};

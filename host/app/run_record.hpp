@@ -1,6 +1,6 @@
 // What `run.json` holds: enough to repeat a run, to check its files and to go on after a kill.
-// Everything but the measured values (`ms`, `passes`, `peak_rss_mib`) is the same for a run that was interrupted and
-// resumed as for one that was not.
+// Everything but what is measured (`ms`, `passes`, `peak_rss_mib`, the device's memory and threads) is the same for a
+// run that was interrupted and resumed as for one that was not.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -161,6 +161,15 @@ TEST_F(RunFolderTest, TellsWhatForbidsAResume) {
                                                                  testing::HasSubstr("supersample was 1, is 2")));
 }
 
+TEST_F(RunFolderTest, ResumesOnTheSameDeviceWithOtherFreeMemory) {
+  RunRecord before = record(), after = record();
+  before.device = R"({"name":"cpu","compute_units":2,"memory_mib":8282})";
+  after.device = R"({"name":"cpu","compute_units":1,"memory_mib":6746})";
+  EXPECT_TRUE(differences(before, after).empty());
+  after.device = R"({"name":"gpu","compute_units":2,"memory_mib":8282})";
+  EXPECT_EQ(differences(before, after).size(), 1u);
+}
+
 TEST_F(RunFolderTest, RefusesADamagedRecord) {
   fs::create_directories(path_);
   put("run.json", "{\"understory\": 3");

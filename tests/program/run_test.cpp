@@ -45,6 +45,7 @@ nlohmann::json record_in(const fs::path& folder) { return nlohmann::json::parse(
 nlohmann::json settled_record(const fs::path& folder) {
   nlohmann::json record = record_in(folder);
   record.erase("peak_rss_mib");
+  for (const char* key : {"memory_mib", "max_allocation_mib", "compute_units"}) record["device"].erase(key);
   for (auto& frame : record["frames"]) frame.erase("ms"), frame.erase("passes");
   return record;
 }
