@@ -22,28 +22,28 @@ using Plane = std::vector<float>;
 struct Frame {
   int width = 0, height = 0;
   int index = 0;
-  double time = 0;                         // s
-  glm::dvec3 origin{0};                    // world coordinates of the positions' zero
-  std::array<Plane, 3> position, normal;   // m relative to origin; unit, facing the viewer. Background: 0
-  Plane depth;                             // camera z, m; background: infinity
-  std::vector<std::uint32_t> owner;        // row of `owners`; 0: background
-  std::vector<std::uint32_t> validity;     // bit flags
-  Plane height_above_root;                 // blades: m; empty when no planned pass reads it
-  std::map<std::string, Plane> terms;      // one per visibility pass, by method name
-  Plane visibility;                        // V_c, [0, 1]; background: 1
-  std::vector<Owner> owners;               // the owner table
-  glm::dmat4 world_to_camera{1};           // column vectors; camera looks along -z, y up (OpenGL and Blender)
-  double vertical_fov = 0;                 // radians; 0: orthographic or unknown
-  double near_plane = 0;                   // m
-  std::map<std::string, double> pass_ms;   // device time of each pass, for run.json; not written to frame files
+  double time = 0;                        // s
+  glm::dvec3 origin{0};                   // world coordinates of the positions' zero
+  std::array<Plane, 3> position, normal;  // m relative to origin; unit, facing the viewer. Background: 0
+  Plane depth;                            // camera z, m; background: infinity
+  std::vector<std::uint32_t> owner;       // row of `owners`; 0: background
+  std::vector<std::uint32_t> validity;    // bit flags
+  Plane height_above_root;                // blades: m; empty when no planned pass reads it
+  std::map<std::string, Plane> terms;     // one per visibility pass, by method name
+  Plane visibility;                       // V_c, [0, 1]; background: 1
+  std::vector<Owner> owners;              // the owner table
+  glm::dmat4 world_to_camera{1};          // column vectors; camera looks along -z, y up (OpenGL and Blender)
+  double vertical_fov = 0;                // radians; 0: orthographic or unknown
+  double near_plane = 0;                  // m
+  std::map<std::string, double> pass_ms;  // device time of each pass, for run.json; not written to frame files
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 /// The posed triangles of a frame, for PLY and VTK dumps and for tracing. Positions in metres relative to the origin.
 struct PosedGeometry {
-  std::vector<float> positions;            // 3 per vertex
-  std::vector<std::uint32_t> triangles;    // 3 per triangle
-  std::vector<std::uint32_t> owner;        // per triangle
+  std::vector<float> positions;          // 3 per vertex
+  std::vector<std::uint32_t> triangles;  // 3 per triangle
+  std::vector<std::uint32_t> owner;      // per triangle
 };
 
 }  // namespace understory

@@ -25,12 +25,12 @@ enum class SwayKind : std::uint8_t { rigid, trunk, branch };
 struct Limb {
   std::int32_t parent = -1;  // index of an earlier limb; -1: stands on the prototype's root frame
   SwayKind kind = SwayKind::rigid;
-  glm::vec3 base{0};         // where it is fixed to its parent, m
-  glm::vec3 axis{0, 0, 1};   // unit, from base to tip
-  float length = 1;          // m
-  float reach = 0;           // largest distance of its wood from the straight axis, m: limits curvature (no stretching)
-  float flexibility = 1;     // multiplies the species' deflection for this kind (thin twigs bend more)
-  float delay = 0;           // s: shifts its response in time so that branches do not nod together
+  glm::vec3 base{0};        // where it is fixed to its parent, m
+  glm::vec3 axis{0, 0, 1};  // unit, from base to tip
+  float length = 1;         // m
+  float reach = 0;          // largest distance of its wood from the straight axis, m: limits curvature (no stretching)
+  float flexibility = 1;    // multiplies the species' deflection for this kind (thin twigs bend more)
+  float delay = 0;          // s: shifts its response in time so that branches do not nod together
 };
 
 /// Vertices of one limb. Structure of arrays; every limb's vertices start at a multiple of `vertex_block`
@@ -38,10 +38,11 @@ struct Limb {
 inline constexpr std::uint32_t vertex_block = 16;
 
 struct VertexBlocks {
-  std::vector<float> x, y, z;                                // m, prototype frame; size = 16 * block_limb.size()
-  std::vector<std::int8_t> flutter_x, flutter_y, flutter_z;  // displacement of a leaf vertex at full flutter, unit `flutter_scale`/127
-  std::vector<std::uint8_t> flutter_phase;                   // 1/256 turn; one value per leaf
-  std::vector<std::uint32_t> block_limb;                     // limb of each block
+  std::vector<float> x, y, z;  // m, prototype frame; size = 16 * block_limb.size()
+  std::vector<std::int8_t> flutter_x, flutter_y,
+      flutter_z;                            // displacement of a leaf vertex at full flutter, unit `flutter_scale`/127
+  std::vector<std::uint8_t> flutter_phase;  // 1/256 turn; one value per leaf
+  std::vector<std::uint32_t> block_limb;    // limb of each block
 };
 
 /// Consecutive triangles of one class.
@@ -71,18 +72,18 @@ struct Prototype {
   std::vector<Limb> limbs;               // parents before children; at least one
   float flutter_scale = 0;               // m
   CrownShell crown;
-  glm::vec3 low{0}, high{0};             // bounding box at rest
+  glm::vec3 low{0}, high{0};  // bounding box at rest
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles.size() / 3); }
 };
 
 /// What a generator or mesh reader hands over: plain triangles with a class each, before limbs and blocks are made.
 struct RawMesh {
   struct Part {
-    std::string name;      // object or node
+    std::string name;  // object or node
     std::string material;
     SurfaceClass surface = SurfaceClass::wood;
-    std::vector<glm::vec3> positions;          // m, z up
-    std::vector<std::uint32_t> triangles;      // 3 per triangle
+    std::vector<glm::vec3> positions;      // m, z up
+    std::vector<std::uint32_t> triangles;  // 3 per triangle
   };
   std::vector<Part> parts;
 };

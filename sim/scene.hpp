@@ -57,11 +57,11 @@ struct TerrainSource {
 };
 
 struct WindSource {
-  double speed = 4;             // mean at `reference_height`, m/s
-  double reference_height = 10;  // m
-  double direction = 0;         // radians, the horizontal direction it blows TOWARD, counter-clockwise from +x
-  double roughness_length = 0.05;   // z0 of the log profile, m
-  double displacement_height = 0;   // d of the log profile, m
+  double speed = 4;                    // mean at `reference_height`, m/s
+  double reference_height = 10;        // m
+  double direction = 0;                // radians, the horizontal direction it blows TOWARD, counter-clockwise from +x
+  double roughness_length = 0.05;      // z0 of the log profile, m
+  double displacement_height = 0;      // d of the log profile, m
   double turbulence_intensity = 0.25;  // sigma_u / U at the reference height
   double length_scale = 40;            // integral length of the along-wind gusts, m
   std::filesystem::path record;        // CSV with a header and columns u_ms, v_ms (20 Hz Davos, say); empty: synthetic
@@ -85,10 +85,10 @@ struct SpeciesSource {
   int leaves = 0;              // 0: preset's own count; generator only
   std::uint64_t variant = 0;   // generator only: another individual of the same species
   std::vector<std::string> leaf_materials{"leaf*", "needle*", "flower*", "blade*"};  // glob patterns, mesh only
-  std::optional<SwayMode> trunk, branch, leaf;  // unset: the preset's
-  glm::vec3 leaf_albedo{0.10f, 0.17f, 0.05f}, wood_albedo{0.16f, 0.12f, 0.09f};  // linear RGB
+  std::optional<SwayMode> trunk, branch, leaf;                                       // unset: the preset's
+  glm::vec3 leaf_albedo{0.10f, 0.17f, 0.05f}, wood_albedo{0.16f, 0.12f, 0.09f};      // linear RGB
   /// Constants of the models; negative: derived from the foliage (see sim/crown.hpp).
-  double alpha_rho = -1;      // eq. 6 of Hegeman et al. 2006, 1/m^3
+  double alpha_rho = -1;                                        // eq. 6 of Hegeman et al. 2006, 1/m^3
   double reeves_blau_ambient = 1, reeves_blau_extinction = -1;  // A, and a in 1/m
 };
 
@@ -97,27 +97,27 @@ struct PlantPlacement {
   // By hand:
   struct Spot {
     glm::dvec2 at{0};
-    double yaw = 0;    // radians
+    double yaw = 0;  // radians
     double scale = 1;
   };
   std::vector<Spot> spots;
   // Or a seeded Poisson-disk scatter (no two closer than `spacing`):
   bool scatter = false;
   Region region;
-  double spacing = 5;            // m
-  int count = 0;                 // 0: as many as fit
+  double spacing = 5;  // m
+  int count = 0;       // 0: as many as fit
   std::array<double, 2> scale{0.8, 1.2};
 };
 
 struct GrassField {
   Region region;
-  double density = 300;             // blades per m^2
-  Spread height{0.35, 0.08};        // blade length, m
-  Spread width{0.006, 0.001};       // at the base, m
-  Spread bend{0.5, 0.25};           // tip angle at rest, radians
-  Spread stiffness{1.0, 0.2};       // relative to `sway.deflection`
+  double density = 300;        // blades per m^2
+  Spread height{0.35, 0.08};   // blade length, m
+  Spread width{0.006, 0.001};  // at the base, m
+  Spread bend{0.5, 0.25};      // tip angle at rest, radians
+  Spread stiffness{1.0, 0.2};  // relative to `sway.deflection`
   SwayMode sway{1.6, 0.2, 0.9};
-  double clumping = 0;              // 0 uniform random roots, towards 1 all in tufts
+  double clumping = 0;  // 0 uniform random roots, towards 1 all in tufts
   glm::vec3 albedo{0.12f, 0.20f, 0.05f};
 };
 
@@ -144,7 +144,7 @@ struct OccluderSource {
   std::vector<OccluderPart> parts;
   std::vector<Keyframe> keyframes;  // path of the whole; z is above the terrain when `on_terrain`
   bool on_terrain = true;
-  bool loop = false;                // after the last keyframe start again
+  bool loop = false;  // after the last keyframe start again
   /// CSV `time_s,part,m00..m23`: recorded part-to-body matrices, in the mesh's own axes; empty: keyframes of the parts.
   std::filesystem::path motion_record;
   UpAxis motion_up = UpAxis::y;
@@ -153,11 +153,11 @@ struct OccluderSource {
 
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
-  std::string tree = "sphere-cap";           // sphere-cap, ellipsoid-cap, reeves-blau, ambient, none
-  std::string grass = "grass-height";        // grass-height, ambient, none
+  std::string tree = "sphere-cap";               // sphere-cap, ellipsoid-cap, reeves-blau, ambient, none
+  std::string grass = "grass-height";            // grass-height, ambient, none
   std::string crowns = "solid-angle-cosine";     // how crowns shade others: solid-angle, -exact, -cosine, none
   std::string occluders = "solid-angle-cosine";  // the same for moving occluders
-  double ambient = 0.5;                      // the constant of `ambient`
+  double ambient = 0.5;                          // the constant of `ambient`
 };
 
 struct Scene {
