@@ -31,13 +31,15 @@ static inline ScreenCorner lane_corner(const CornerLanes* lanes, int lane) {
 static inline void draw_lanes(const CameraView* camera, ProjectedCorners a, ProjectedCorners b, ProjectedCorners c,
                               const int* marks, uint first, global VisibleTriangle* pixels) {
   CornerLanes as, bs, cs;
+  float nearest[W];
+  STORE(min(a.z, min(b.z, c.z)) * (real)(INTERPOLATION_SLACK), nearest, 0);
   store_lanes(a, &as);
   store_lanes(b, &bs);
   store_lanes(c, &cs);
   for (int lane = 0; lane < W; ++lane)
     if (marks[lane] == 1)
-      scan_convert(camera, lane_corner(&as, lane), lane_corner(&bs, lane), lane_corner(&cs, lane), first + lane,
-                   pixels);
+      scan_convert(camera, lane_corner(&as, lane), lane_corner(&bs, lane), lane_corner(&cs, lane), nearest[lane],
+                   first + lane, pixels);
 }
 
 kernel void clear_visible(global VisibleTriangle* pixels, uint count) {

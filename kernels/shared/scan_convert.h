@@ -7,6 +7,8 @@
 #include "kernels/shared/triangle_corners.h"
 #include "kernels/shared/visibility_buffer.h"
 
+#define INTERPOLATION_SLACK 0.99999f  // interpolated depths may round to just before the nearest corner
+
 typedef struct {
   int x, y;         // 1/256 pixel
   float inverse_z;  // 1/m
@@ -16,13 +18,17 @@ typedef struct {
 static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
 static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
 
-static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, uint triangle,
-                                global VisibleTriangle* pixels) {
+// `nearest`: no part of the triangle is nearer, m. Fragments that the buffer hides already are not worth their maths; in
+// foliage that is most of them.
+static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, float nearest,
+                                uint triangle, global VisibleTriangle* pixels) {
   const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
   const int right = min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1);
   const int top = max(first_centre(min(a.y, min(b.y, c.y))), 0);
   const int bottom = min(last_centre(max(a.y, max(b.y, c.y))), camera->height - 1);
   if (left > right || top > bottom) return;
+  const size_t first_pixel = (size_t)top * camera->width + left;
+  if (left == right && top == bottom && hidden(pixels, first_pixel, nearest)) return;
   long area = (long)(b.x - a.x) * (c.y - a.y) - (long)(c.x - a.x) * (b.y - a.y);
   if (area == 0) return;
   if (area < 0) {
@@ -45,10 +51,11 @@ static inline void scan_convert(const CameraView* camera, ScreenCorner a, Screen
   for (int y = top; y <= bottom; ++y) {
     long edge_a = edge_a_row, edge_b = edge_b_row, edge_c = edge_c_row;
     for (int x = left; x <= right; ++x) {
-      if ((edge_a | edge_b | edge_c) >= 0) {
+      const size_t pixel = (size_t)y * camera->width + x;
+      if ((edge_a | edge_b | edge_c) >= 0 && !hidden(pixels, pixel, nearest)) {
         const float wb = (float)edge_b * share, wc = (float)edge_c * share;
         const float inverse_z = fma(wb, b.inverse_z - a.inverse_z, fma(wc, c.inverse_z - a.inverse_z, a.inverse_z));
-        offer_fragment(pixels, pixel_count, (size_t)y * camera->width + x, 1.0f / inverse_z, triangle);
+        offer_fragment(pixels, pixel_count, pixel, 1.0f / inverse_z, triangle);
       }
       edge_a += a_right;
       edge_b += b_right;
@@ -80,11 +87,14 @@ static inline void clip_and_scan_convert(const CameraView* camera, Corners corne
   polygon[2] = view_point(camera, x[corners.c], y[corners.c], z[corners.c]);
   const int count = clip_to_guard_band(camera, polygon);
   if (count < 3) return;
+  float nearest = polygon[0].z;
+  for (int i = 1; i < count; ++i) nearest = fmin(nearest, polygon[i].z);
+  nearest *= INTERPOLATION_SLACK;
   const ScreenCorner first = screen_corner(camera, polygon[0]);
   ScreenCorner previous = screen_corner(camera, polygon[1]);
   for (int i = 2; i < count; ++i) {
     const ScreenCorner next = screen_corner(camera, polygon[i]);
-    scan_convert(camera, first, previous, next, triangle, pixels);
+    scan_convert(camera, first, previous, next, nearest, triangle, pixels);
     previous = next;
   }
 }

@@ -20,6 +20,11 @@ static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_
   if (offered < *seen) atom_min(seen, offered);  // the plain read avoids most atomics; a stale one costs only time
 }
 
+// Whether the pixel sees something nearer than `depth` already.
+static inline int hidden(global const VisibleTriangle* pixels, size_t pixel, float depth) {
+  return as_uint(depth) > (uint)(pixels[pixel] >> 32);
+}
+
 static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
   return (uint)pixels[pixel];
 }
@@ -42,6 +47,10 @@ static inline void offer_fragment(global VisibleTriangle* pixels, size_t pixels_
   global uint* seen = pixels + pixels_count + pixel;
   if (as_uint(depth) == *nearest && triangle < *seen) atomic_min(seen, triangle);
 #endif
+}
+
+static inline int hidden(global const VisibleTriangle* pixels, size_t pixel, float depth) {
+  return as_uint(depth) > pixels[pixel];
 }
 
 static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
