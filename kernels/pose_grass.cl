@@ -4,6 +4,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/grass_bend.h"
 #include "kernels/shared/pose_blade.h"
+#include "kernels/shared/posed_vertices.h"
 #include "kernels/shared/records.h"
 #include "kernels/shared/triangle_corners.h"
 
@@ -18,18 +19,16 @@ static inline real look_up(global const float* series, uint mask, real sample, u
   return fma(part, high - low, low);
 }
 
-static inline void store_point(global float* x, global float* y, global float* z, uint at, real px, real py, real pz) {
-  STORE(px, x + at, 0);
-  STORE(py, y + at, 0);
-  STORE(pz, z + at, 0);
+static inline void store_point(global float4* posed, uint vertex, real px, real py, real pz) {
+  const PosedLanes lanes = {px, py, pz};
+  store_posed(lanes, posed, vertex);
 }
 
 kernel void pose_grass(global const float* root_x, global const float* root_y, global const float* root_z,
                        global const float* length, global const float* half_width, global const float* rest_x,
                        global const float* rest_y, global const float* facing_x, global const float* facing_y,
                        global const float* flexibility, global const float* phase, const GrassWind wind,
-                       global const float* series, uint first_blade, uint first_vertex, global float* x,
-                       global float* y, global float* z) {
+                       global const float* series, uint first_blade, uint first_vertex, global float4* posed) {
   const size_t blade = first_blade / W + get_global_id(0);
   const uint vertex = first_vertex + 7 * CHUNK * get_group_id(0) + W * get_local_id(0);
   const uint mask = wind.series_count - 1;
@@ -56,11 +55,11 @@ kernel void pose_grass(global const float* root_x, global const float* root_y, g
   const BladePoint tip = blade_midline(size, bend.x, bend.y, REAL(1.0));
   const real mx = REAL(0.85) * wx, my = REAL(0.85) * wy, ux = REAL(0.5) * wx, uy = REAL(0.5) * wy;
 
-  store_point(x, y, z, vertex, ox - wx, oy - wy, oz);
-  store_point(x, y, z, vertex + CHUNK, ox + wx, oy + wy, oz);
-  store_point(x, y, z, vertex + 2 * CHUNK, ox + middle.x - mx, oy + middle.y - my, oz + middle.z);
-  store_point(x, y, z, vertex + 3 * CHUNK, ox + middle.x + mx, oy + middle.y + my, oz + middle.z);
-  store_point(x, y, z, vertex + 4 * CHUNK, ox + upper.x - ux, oy + upper.y - uy, oz + upper.z);
-  store_point(x, y, z, vertex + 5 * CHUNK, ox + upper.x + ux, oy + upper.y + uy, oz + upper.z);
-  store_point(x, y, z, vertex + 6 * CHUNK, ox + tip.x, oy + tip.y, oz + tip.z);
+  store_point(posed, vertex, ox - wx, oy - wy, oz);
+  store_point(posed, vertex + CHUNK, ox + wx, oy + wy, oz);
+  store_point(posed, vertex + 2 * CHUNK, ox + middle.x - mx, oy + middle.y - my, oz + middle.z);
+  store_point(posed, vertex + 3 * CHUNK, ox + middle.x + mx, oy + middle.y + my, oz + middle.z);
+  store_point(posed, vertex + 4 * CHUNK, ox + upper.x - ux, oy + upper.y - uy, oz + upper.z);
+  store_point(posed, vertex + 5 * CHUNK, ox + upper.x + ux, oy + upper.y + uy, oz + upper.z);
+  store_point(posed, vertex + 6 * CHUNK, ox + tip.x, oy + tip.y, oz + tip.z);
 }

@@ -2,12 +2,13 @@
 // then the limb's rigid transform (records.h, LimbPose). One work-item poses W vertices of one block of 16.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/pose_limb.h"
+#include "kernels/shared/posed_vertices.h"
 #include "kernels/shared/records.h"
 
 kernel void pose_mesh(global const float* rest_x, global const float* rest_y, global const float* rest_z,
                       global const char* flutter_x, global const char* flutter_y, global const char* flutter_z,
                       global const uchar* flutter_phase, global const PosedBlock* blocks, global const LimbPose* limbs,
-                      global float* x, global float* y, global float* z, uint items) {
+                      global float4* posed, uint items) {
   const size_t i = get_global_id(0);
   if (i >= items) return;
   const uint per_block = 16 / W;
@@ -23,7 +24,6 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   pz = fma(LOAD_BYTE(flutter_z, rest), swing, pz);
 
   pose_on_limb(limb->to_limb, limb->curvature, limb->to_scene, &px, &py, &pz);
-  STORE(px, x, i);
-  STORE(py, y, i);
-  STORE(pz, z, i);
+  const PosedLanes lanes = {px, py, pz};
+  store_posed(lanes, posed, i * W);
 }

@@ -48,18 +48,13 @@ kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
 }
 
 kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint* index_a, global const uint* index_b,
-                           global const uint* index_c, global const float* x, global const float* y,
-                           global const float* z, const CameraView camera, global VisibleTriangle* pixels) {
+                           global const uint* index_c, global const float4* posed, const CameraView camera, global VisibleTriangle* pixels) {
   global const TriangleChunk* chunk = chunks + get_group_id(0);
   const uint lane = get_local_id(0) * W, t = chunk->first_index + lane;
-  const bits first = (bits)(chunk->first_vertex);
-  const bits ia = first + LOAD(index_a + t, 0), ib = first + LOAD(index_b + t, 0), ic = first + LOAD(index_c + t, 0);
-  const ProjectedCorners a =
-      project_corners(&camera, GATHER(real, x, ia, ), GATHER(real, y, ia, ), GATHER(real, z, ia, ));
-  const ProjectedCorners b =
-      project_corners(&camera, GATHER(real, x, ib, ), GATHER(real, y, ib, ), GATHER(real, z, ib, ));
-  const ProjectedCorners c =
-      project_corners(&camera, GATHER(real, x, ic, ), GATHER(real, y, ic, ), GATHER(real, z, ic, ));
+  const uint first = chunk->first_vertex;
+  const ProjectedCorners a = project_corners(&camera, gather_posed(posed, first, index_a + t));
+  const ProjectedCorners b = project_corners(&camera, gather_posed(posed, first, index_b + t));
+  const ProjectedCorners c = project_corners(&camera, gather_posed(posed, first, index_c + t));
   const whole covered = coverage(&camera, a, b, c);
   int marks[W];
   STORE(covered, marks, 0);
@@ -67,26 +62,22 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
   draw_lanes(&camera, a, b, c, marks, id, pixels);
   for (uint i = 0; i < W; ++i)
     if (marks[i] == 2)
-      clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), x, y, z, id + i, pixels);
+      clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), posed, id + i, pixels);
 }
 
-kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float* x,
-                            global const float* y, global const float* z, const CameraView camera,
+kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float4* posed, const CameraView camera,
                             global VisibleTriangle* pixels) {
   const uint chunk_index = first_chunk + get_group_id(0), lane = get_local_id(0) * W;
   global const TriangleChunk* chunk = chunks + chunk_index;
   const Corners corners = grass_corners(chunk, lane);
-  const ProjectedCorners a =
-      project_corners(&camera, LOAD(x + corners.a, 0), LOAD(y + corners.a, 0), LOAD(z + corners.a, 0));
-  const ProjectedCorners b =
-      project_corners(&camera, LOAD(x + corners.b, 0), LOAD(y + corners.b, 0), LOAD(z + corners.b, 0));
-  const ProjectedCorners c =
-      project_corners(&camera, LOAD(x + corners.c, 0), LOAD(y + corners.c, 0), LOAD(z + corners.c, 0));
+  const ProjectedCorners a = project_corners(&camera, load_posed(posed, corners.a));
+  const ProjectedCorners b = project_corners(&camera, load_posed(posed, corners.b));
+  const ProjectedCorners c = project_corners(&camera, load_posed(posed, corners.c));
   const whole covered = coverage(&camera, a, b, c);
   int marks[W];
   STORE(covered, marks, 0);
   const uint id = chunk_index * CHUNK + lane;
   draw_lanes(&camera, a, b, c, marks, id, pixels);
   for (uint i = 0; i < W; ++i)
-    if (marks[i] == 2) clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), x, y, z, id + i, pixels);
+    if (marks[i] == 2) clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), posed, id + i, pixels);
 }

@@ -10,7 +10,7 @@
 
 kernel void resolve(global const VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
                     global const uint* index_a, global const uint* index_b, global const uint* index_c,
-                    global const float* vertex_x, global const float* vertex_y, global const float* vertex_z,
+                    global const float4* posed,
                     const CameraView camera, uint padded_fragments, global float* position_x, global float* position_y,
                     global float* position_z, global float* normal_x, global float* normal_y, global float* normal_z,
                     global float* depth, global uint* owner, global uint* validity
@@ -41,9 +41,9 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
   global const TriangleChunk* chunk = chunks + chunk_index;
   const int is_mesh = chunk_index < mesh_chunks;
   const Corners corners = is_mesh ? mesh_corners(chunk, lane, index_a, index_b, index_c) : grass_corners(chunk, lane);
-  const float ax = vertex_x[corners.a], ay = vertex_y[corners.a], az = vertex_z[corners.a];
-  const float ux = vertex_x[corners.b] - ax, uy = vertex_y[corners.b] - ay, uz = vertex_z[corners.b] - az;
-  const float vx = vertex_x[corners.c] - ax, vy = vertex_y[corners.c] - ay, vz = vertex_z[corners.c] - az;
+  const float4 a = posed[corners.a], b = posed[corners.b], c = posed[corners.c];
+  const float ax = a.x, ay = a.y, az = a.z;
+  const float ux = b.x - ax, uy = b.y - ay, uz = b.z - az, vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
 
   // The ray through the pixel's sample; its forward component is 1, so that its parameter is the camera depth.
   const float right = ((float)(i % (uint)camera.width) + 0.5f - camera.centre_x) / camera.focal;

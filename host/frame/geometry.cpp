@@ -173,9 +173,7 @@ Geometry upload_geometry(Device& device, const World& world) {
   upload_blades(device, world, geometry);
   geometry.triangles.chunks = upload(device, geometry.chunks, "triangle chunks");
   if (geometry.vertices > 0)
-    geometry.posed = {Buffer<float>(device, geometry.vertices, "posed vertices"),
-                      Buffer<float>(device, geometry.vertices, "posed vertices"),
-                      Buffer<float>(device, geometry.vertices, "posed vertices")};
+    geometry.posed = {Buffer<std::array<float, 4>>(device, geometry.vertices, "posed vertices")};
   return geometry;
 }
 

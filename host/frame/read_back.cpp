@@ -65,10 +65,10 @@ FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye,
 PosedGeometry read_geometry(const Geometry& geometry, glm::dvec3 eye) {
   PosedGeometry posed;
   if (geometry.vertices == 0) return posed;
-  const std::vector<float> planes[3] = {geometry.posed.x.read(), geometry.posed.y.read(), geometry.posed.z.read()};
   posed.positions.reserve(3 * std::size_t{geometry.vertices});
-  for (std::size_t i = 0; i < geometry.vertices; ++i)
-    for (int axis = 0; axis < 3; ++axis) posed.positions.push_back(static_cast<float>(planes[axis][i] + eye[axis]));
+  for (const std::array<float, 4>& point : geometry.posed.points.read())
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      posed.positions.push_back(static_cast<float>(point[axis] + eye[static_cast<int>(axis)]));
 
   const bool mesh = geometry.has_mesh();
   const std::vector<std::uint32_t> a = mesh ? geometry.triangles.index_a.read() : std::vector<std::uint32_t>{};

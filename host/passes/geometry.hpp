@@ -1,5 +1,6 @@
 // Device buffers that the geometry passes (pose, cull, rasterise, resolve) hand to each other.
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "host/opencl/buffer.hpp"
@@ -25,7 +26,7 @@ struct RestBlades {
 
 /// Vertices at time t: first every mesh instance's blocks of 16, then 7 x 256 for each 256 blades.
 struct PosedVertices {
-  Buffer<float> x, y, z;  // m, camera-relative, world axes
+  Buffer<std::array<float, 4>> points;  // x, y, z, unused; m, camera-relative, world axes
 };
 
 /// Triangles of the whole scene. Chunks of meshes first, then those of grass; ids are chunk * 256 + lane.

@@ -15,7 +15,7 @@ void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& tri
   const auto padded = static_cast<std::uint32_t>(planes.padded_fragments);
   const auto launch = [&](const auto&... grass) {
     kernel_.launch(padded, 64, visible.words, triangles.chunks, triangles.mesh_chunks, triangles.index_a,
-                   triangles.index_b, triangles.index_c, posed.x, posed.y, posed.z, camera, padded, planes.position_x,
+                   triangles.index_b, triangles.index_c, posed.points, camera, padded, planes.position_x,
                    planes.position_y, planes.position_z, planes.normal_x, planes.normal_y, planes.normal_z,
                    planes.depth, planes.owner, planes.validity, grass...);
   };

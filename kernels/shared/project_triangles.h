@@ -4,7 +4,7 @@
 #define UNDERSTORY_PROJECT_TRIANGLES_H
 
 #include "kernels/shared/guard_band.h"
-#include "kernels/shared/real.h"
+#include "kernels/shared/posed_vertices.h"
 
 #define SUBPIXELS 256  // corners snap to 1/256 pixel
 
@@ -14,17 +14,17 @@ typedef struct {
   real z;          // metres ahead of the eye
 } ProjectedCorners;
 
-static inline real along(const float* axis, real x, real y, real z) {
-  return fma((real)(axis[0]), x, fma((real)(axis[1]), y, (real)(axis[2]) * z));
+static inline real along(const float* axis, PosedLanes p) {
+  return fma((real)(axis[0]), p.x, fma((real)(axis[1]), p.y, (real)(axis[2]) * p.z));
 }
 
-static inline ProjectedCorners project_corners(const CameraView* camera, real x, real y, real z) {
+static inline ProjectedCorners project_corners(const CameraView* camera, PosedLanes p) {
   ProjectedCorners corners;
-  corners.z = along(camera->forward, x, y, z);
+  corners.z = along(camera->forward, p);
   corners.inverse_z = REAL(1.0) / corners.z;
   const real scale = (real)(camera->focal) * corners.inverse_z;
-  corners.x = fma(along(camera->right, x, y, z), scale, (real)(camera->centre_x));
-  corners.y = fma(along(camera->down, x, y, z), scale, (real)(camera->centre_y));
+  corners.x = fma(along(camera->right, p), scale, (real)(camera->centre_x));
+  corners.y = fma(along(camera->down, p), scale, (real)(camera->centre_y));
   return corners;
 }
 

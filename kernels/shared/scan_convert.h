@@ -77,14 +77,17 @@ static inline ScreenCorner screen_corner(const CameraView* camera, ViewPoint v) 
   return s;
 }
 
+static inline ViewPoint posed_view_point(const CameraView* camera, float4 vertex) {
+  return view_point(camera, vertex.x, vertex.y, vertex.z);
+}
+
 // For the few triangles that pass the near plane or leave the guard band.
-static inline void clip_and_scan_convert(const CameraView* camera, Corners corners, global const float* x,
-                                         global const float* y, global const float* z, uint triangle,
+static inline void clip_and_scan_convert(const CameraView* camera, Corners corners, global const float4* posed, uint triangle,
                                          global VisibleTriangle* pixels) {
   ViewPoint polygon[CLIPPED_CORNERS];
-  polygon[0] = view_point(camera, x[corners.a], y[corners.a], z[corners.a]);
-  polygon[1] = view_point(camera, x[corners.b], y[corners.b], z[corners.b]);
-  polygon[2] = view_point(camera, x[corners.c], y[corners.c], z[corners.c]);
+  polygon[0] = posed_view_point(camera, posed[corners.a]);
+  polygon[1] = posed_view_point(camera, posed[corners.b]);
+  polygon[2] = posed_view_point(camera, posed[corners.c]);
   const int count = clip_to_guard_band(camera, polygon);
   if (count < 3) return;
   float nearest = polygon[0].z;

@@ -72,7 +72,7 @@ inline void pose_grass_on(Device& device, int lanes, const RestBlades& rest, con
   const auto width = static_cast<std::size_t>(lanes);
   kernel.launch(blades / width, blades_per_group / width, rest.root_x, rest.root_y, rest.root_z, rest.length,
                 rest.half_width, rest.bend_x, rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase,
-                wind, series, first_blade, first_vertex, posed.x, posed.y, posed.z);
+                wind, series, first_blade, first_vertex, posed.points);
 }
 
 }  // namespace understory
