@@ -48,7 +48,8 @@ kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
 }
 
 kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint* index_a, global const uint* index_b,
-                           global const uint* index_c, global const float4* posed, const CameraView camera, global VisibleTriangle* pixels) {
+                           global const uint* index_c, global const float4* posed, const CameraView camera,
+                           global VisibleTriangle* pixels) {
   global const TriangleChunk* chunk = chunks + get_group_id(0);
   const uint lane = get_local_id(0) * W, t = chunk->first_index + lane;
   const uint first = chunk->first_vertex;
@@ -65,8 +66,8 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
       clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), posed, id + i, pixels);
 }
 
-kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float4* posed, const CameraView camera,
-                            global VisibleTriangle* pixels) {
+kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float4* posed,
+                            const CameraView camera, global VisibleTriangle* pixels) {
   const uint chunk_index = first_chunk + get_group_id(0), lane = get_local_id(0) * W;
   global const TriangleChunk* chunk = chunks + chunk_index;
   const Corners corners = grass_corners(chunk, lane);

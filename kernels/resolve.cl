@@ -10,10 +10,10 @@
 
 kernel void resolve(global const VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
                     global const uint* index_a, global const uint* index_b, global const uint* index_c,
-                    global const float4* posed,
-                    const CameraView camera, uint padded_fragments, global float* position_x, global float* position_y,
-                    global float* position_z, global float* normal_x, global float* normal_y, global float* normal_z,
-                    global float* depth, global uint* owner, global uint* validity
+                    global const float4* posed, const CameraView camera, uint padded_fragments,
+                    global float* position_x, global float* position_y, global float* position_z,
+                    global float* normal_x, global float* normal_y, global float* normal_z, global float* depth,
+                    global uint* owner, global uint* validity
 #ifdef GRASS_HEIGHT
                     ,
                     global const float* blade_root_z, global const float* blade_length, float root_offset_z,

@@ -35,8 +35,7 @@ void RasterisePass::run(const TriangleTables& triangles, const PosedVertices& po
   for (std::size_t pass = 0; pass < std::max(rasterise_mesh_.size(), rasterise_grass_.size()); ++pass) {
     if (!rasterise_mesh_.empty())
       rasterise_mesh_[pass].launch(triangles.mesh_chunks * local, local, triangles.chunks, triangles.index_a,
-                                   triangles.index_b, triangles.index_c, posed.points, camera,
-                                   visible.words);
+                                   triangles.index_b, triangles.index_c, posed.points, camera, visible.words);
     if (!rasterise_grass_.empty())
       rasterise_grass_[pass].launch(triangles.grass_chunks * local, local, triangles.chunks, triangles.mesh_chunks,
                                     posed.points, camera, visible.words);

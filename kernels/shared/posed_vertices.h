@@ -10,8 +10,8 @@ typedef struct {
 } PosedLanes;
 
 #if W == 16
-// Four records per vector, those of lanes k, k + 4, k + 8, k + 12: a 4x4 transposition within each quarter of the vector
-// then gives x, y and z in the order of the lanes.
+// Four records per vector, those of lanes k, k + 4, k + 8, k + 12: a 4x4 transposition within each quarter of the
+// vector then gives x, y and z in the order of the lanes.
 static inline float16 quarters_first(float16 p, float16 q) {  // p0 q0 p1 q1 of every quarter
   return (float16)(p.s0, q.s0, p.s1, q.s1, p.s4, q.s4, p.s5, q.s5, p.s8, q.s8, p.s9, q.s9, p.sc, q.sc, p.sd, q.sd);
 }
@@ -74,7 +74,8 @@ static inline PosedLanes gather_posed(global const float4* posed, uint first, gl
 
 static inline PosedLanes load_posed(global const float4* posed, uint vertex) {
   PosedLanes lanes;
-  private float x[W], y[W], z[W];
+ private
+  float x[W], y[W], z[W];
   for (uint lane = 0; lane < W; ++lane) {
     const float4 p = posed[vertex + lane];
     x[lane] = p.x;
@@ -88,7 +89,8 @@ static inline PosedLanes load_posed(global const float4* posed, uint vertex) {
 }
 
 static inline void store_posed(PosedLanes lanes, global float4* posed, size_t vertex) {
-  private float x[W], y[W], z[W];
+ private
+  float x[W], y[W], z[W];
   STORE(lanes.x, x, 0);
   STORE(lanes.y, y, 0);
   STORE(lanes.z, z, 0);

@@ -18,8 +18,8 @@ typedef struct {
 static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
 static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
 
-// `nearest`: no part of the triangle is nearer, m. Fragments that the buffer hides already are not worth their maths; in
-// foliage that is most of them.
+// `nearest`: no part of the triangle is nearer, m. Fragments that the buffer hides already are not worth their maths;
+// in foliage that is most of them.
 static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, float nearest,
                                 uint triangle, global VisibleTriangle* pixels) {
   const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
@@ -82,8 +82,8 @@ static inline ViewPoint posed_view_point(const CameraView* camera, float4 vertex
 }
 
 // For the few triangles that pass the near plane or leave the guard band.
-static inline void clip_and_scan_convert(const CameraView* camera, Corners corners, global const float4* posed, uint triangle,
-                                         global VisibleTriangle* pixels) {
+static inline void clip_and_scan_convert(const CameraView* camera, Corners corners, global const float4* posed,
+                                         uint triangle, global VisibleTriangle* pixels) {
   ViewPoint polygon[CLIPPED_CORNERS];
   polygon[0] = posed_view_point(camera, posed[corners.a]);
   polygon[1] = posed_view_point(camera, posed[corners.b]);

@@ -85,11 +85,10 @@ Frame draw(Device& device, Geometry& geometry, int lanes, bool wide_atomics) {
     const auto words = static_cast<std::uint32_t>(wide_atomics ? pixels : 2 * pixels);
     if (pass == 0) kernel("clear_visible").launch(words, 256, visible.words, words);
     kernel("rasterise_mesh")
-        .launch(t.mesh_chunks * local, local, t.chunks, t.index_a, t.index_b, t.index_c, posed.x, posed.y, posed.z,
-                camera, visible.words);
-    kernel("rasterise_grass")
-        .launch(t.grass_chunks * local, local, t.chunks, t.mesh_chunks, posed.x, posed.y, posed.z, camera,
+        .launch(t.mesh_chunks * local, local, t.chunks, t.index_a, t.index_b, t.index_c, posed.points, camera,
                 visible.words);
+    kernel("rasterise_grass")
+        .launch(t.grass_chunks * local, local, t.chunks, t.mesh_chunks, posed.points, camera, visible.words);
   }
   FragmentPlanes planes =
       allocate_planes(device, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), true);

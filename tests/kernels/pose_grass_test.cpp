@@ -84,8 +84,7 @@ PosedField pose(Device& device, const WindyField& field, int lanes) {
   World world;
   world.grass = {random_blades(300), field.blades};
   Geometry geometry = upload_geometry(device, world);
-  const std::vector<float> blank(geometry.vertices, untouched);
-  for (Buffer<float>* plane : {&geometry.posed.x, &geometry.posed.y, &geometry.posed.z}) plane->write(blank);
+  geometry.posed.points.write(std::vector(geometry.vertices, untouched_point));
   std::vector<std::array<float, 2>> pairs;
   for (const glm::vec2 pair : interleaved(field.response)) pairs.push_back({pair.x, pair.y});
   const SwaySeries series = upload_test_data(device, pairs);
@@ -96,7 +95,7 @@ PosedField pose(Device& device, const WindyField& field, int lanes) {
   else
     pose_grass_on(device, lanes, geometry.blades, field.wind, series, range.first_blade, range.blades,
                   range.first_vertex, geometry.posed);
-  PosedField posed{{geometry.posed.x.read(), geometry.posed.y.read(), geometry.posed.z.read()}, range.first_vertex};
+  PosedField posed{read_points(geometry.posed), range.first_vertex};
   EXPECT_EQ(std::vector<float>(posed.points.x.begin(), posed.points.x.begin() + range.first_vertex),
             std::vector<float>(range.first_vertex, untouched))
       << "wrote into the field before";

@@ -139,7 +139,7 @@ TEST(PoseMeshPass, PosesEveryInstanceOfAWorldAsTheReferenceDoes) {
   for (double time : {0.0, 3.7}) {
     const Pose pose = pose_at(world, time, {-12, -5, 2});
     PoseMeshPass(device).run(geometry.rest, geometry.blocks, upload_test_data(device, pose.limbs), geometry.posed);
-    const Points posed{geometry.posed.x.read(), geometry.posed.y.read(), geometry.posed.z.read()};
+    const Points posed = read_points(geometry.posed);
     std::size_t first = 0;
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
       const Prototype& prototype = world.prototypes[world.instances[i].prototype];
@@ -159,8 +159,7 @@ TEST(PoseMeshPass, RefusesPlanesThatAreTooSmall) {
   Device device;
   const MeshPose pose = random_pose(3);
   const RestVertices rest = upload_rest(device, pose.rest);
-  const auto plane = [&] { return Buffer<float>(device, 2 * vertex_block, "posed"); };
-  PosedVertices posed{plane(), plane(), plane()};
+  PosedVertices posed{Buffer<std::array<float, 4>>(device, 2 * vertex_block, "posed")};
   const std::string message = message_of(ErrorKind::unexpected, [&] {
     PoseMeshPass(device).run(rest, upload_test_data(device, pose.blocks), upload_test_data(device, pose.limbs), posed);
   });

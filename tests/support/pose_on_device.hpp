@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -38,23 +39,33 @@ struct Points {
   glm::dvec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// A vertex that no kernel writes; planes of results start and end with it.
+/// The records of posed vertices as planes.
+inline Points read_points(const PosedVertices& posed) {
+  Points points;
+  for (const std::array<float, 4>& point : posed.points.read()) {
+    points.x.push_back(point[0]);
+    points.y.push_back(point[1]);
+    points.z.push_back(point[2]);
+  }
+  return points;
+}
+
+/// A coordinate that no kernel writes; results start and end with it.
 inline constexpr float untouched = -12345;
+inline constexpr std::array<float, 4> untouched_point = {untouched, untouched, untouched, untouched};
 
 /// Kernel `pose_mesh` at `lanes` vertices per work-item. Fails the test when it writes past its last vertex.
 inline Points pose_mesh_on(Device& device, int lanes, const VertexBlocks& rest, const std::vector<PosedBlock>& blocks,
                            const std::vector<LimbPose>& limbs) {
   Kernel kernel(device, "pose_mesh", "pose_mesh", "pose_mesh", "-DW=" + std::to_string(lanes));
   const std::size_t vertices = blocks.size() * vertex_block, beyond = 64 * 16;
-  const std::vector<float> blank(vertices + beyond, untouched);
   const RestVertices planes = upload_rest(device, rest);
-  const Buffer<float> x = upload_test_data(device, blank), y = upload_test_data(device, blank),
-                      z = upload_test_data(device, blank);
+  PosedVertices all{upload_test_data(device, std::vector(vertices + beyond, untouched_point))};
   const auto items = static_cast<std::uint32_t>(vertices / static_cast<std::size_t>(lanes));
   kernel.launch(items, 64, planes.x, planes.y, planes.z, planes.flutter_x, planes.flutter_y, planes.flutter_z,
-                planes.flutter_phase, upload_test_data(device, blocks), upload_test_data(device, limbs), x, y, z,
+                planes.flutter_phase, upload_test_data(device, blocks), upload_test_data(device, limbs), all.points,
                 items);
-  Points posed{x.read(), y.read(), z.read()};
+  Points posed = read_points(all);
   for (std::vector<float>* plane : {&posed.x, &posed.y, &posed.z}) {
     EXPECT_EQ(std::vector<float>(plane->begin() + static_cast<std::ptrdiff_t>(vertices), plane->end()),
               std::vector<float>(beyond, untouched))
