@@ -6,6 +6,7 @@
 #include "kernels/shared/fragment_tiles.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/records.h"
+#include "kernels/shared/shading_sphere.h"
 #include "kernels/shared/solid_angle.h"
 #include "kernels/shared/tile_occlusion.h"
 #include "kernels/shared/validity.h"
@@ -21,7 +22,13 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
   if (i >= items) return;
   const uint tile = tile_of_unit(i * W / UNIT, row_length);
   const TileOcclusion far = tiles[tile];
+  const bits codes = LOAD(validity, i);
   const real x = LOAD(position_x, i), y = LOAD(position_y, i), z = LOAD(position_z, i);
+  const truth drawn = ((codes & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
+  if (!ANY(drawn)) {
+    STORE(REAL(1.0), visibility, i);
+    return;
+  }
   const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
   const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
 
@@ -30,15 +37,20 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
   const uint count = far.listed == ALL_SPHERES ? sphere_count : far.listed;
   for (uint j = 0; j < count; ++j) {
     const ShadingSphere sphere = spheres[far.listed == ALL_SPHERES ? j : lists[tile * capacity + j]];
-    const float opacity = sphere.radius > 0 ? clamp(sphere.opacity, 0.0f, 1.0f) : 0.0f;
-    const float inverse_radius = 1.0f / fmax(sphere.radius, 1e-12f);
+    if (!sphere_shades(sphere)) continue;
+    const float inverse_radius = 1.0f / sphere.radius;
     const real dx = ((real)(sphere.x) - x) * inverse_radius, dy = ((real)(sphere.y) - y) * inverse_radius;
     const real dz = ((real)(sphere.z) - z) * inverse_radius;
-    const truth other = (group != (whole)(sphere.group)) | (group < 0);
-    const real blocked = PICK(other, (real)(opacity), REAL(0.0)) * SHARE(dx, dy, dz, a, b, c);
+    real blocked = (real)(fmin(sphere.opacity, 1.0f)) * SHARE(dx, dy, dz, a, b, c);
+    truth within = distance_squared(dx, dy, dz) <= REAL(1.0);
+    if (sphere.group >= 0 && (far.groups >> (sphere.group & 31) & 1u)) {
+      const truth own = group == (whole)(sphere.group);
+      blocked = PICK(own, REAL(0.0), blocked);
+      within &= NOT(own);
+    }
     v = fma(-v, blocked, v);
-    too_close |= other & (distance_squared(dx, dy, dz) <= (real)(opacity > 0 ? 1.0f : 0.0f));
+    too_close |= within;
   }
-  STORE(as_visibility(v), visibility, i);
-  STORE(LOAD(validity, i) | PICK(too_close, (bits)(VALIDITY_OCCLUDER_TOO_CLOSE), (bits)(0u)), validity, i);
+  STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
+  STORE(codes | PICK(drawn & too_close, (bits)(VALIDITY_OCCLUDER_TOO_CLOSE), (bits)(0u)), validity, i);
 }

@@ -19,10 +19,12 @@ kernel void list_tile_spheres(global const float* position_x, global const float
   for (uint row = top; row < top + TILE_ROWS; ++row) {
     const uint unit = first_unit(row, row_length) + column;
     if (unit >= min(first_unit(row + 1, row_length), units)) continue;
-    const truth drawn = (LOAD(validity, unit) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) == (bits)(0u);
-    include(&bounds.x, LOAD(position_x, unit), drawn);
-    include(&bounds.y, LOAD(position_y, unit), drawn);
-    include(&bounds.z, LOAD(position_z, unit), drawn);
+    const real x = LOAD(position_x, unit), y = LOAD(position_y, unit), z = LOAD(position_z, unit);
+    const truth drawn = ((LOAD(validity, unit) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
+    if (!ANY(drawn)) continue;
+    include(&bounds.x, x, drawn);
+    include(&bounds.y, y, drawn);
+    include(&bounds.z, z, drawn);
     include(&bounds.a, LOAD(normal_x, unit), drawn);
     include(&bounds.b, LOAD(normal_y, unit), drawn);
     include(&bounds.c, LOAD(normal_z, unit), drawn);
@@ -45,5 +47,7 @@ kernel void list_tile_spheres(global const float* position_x, global const float
         ++listed;
       }
   }
-  tiles[tile] = listed <= capacity ? tile_occlusion(field, listed) : untouched_tile();
+  // With more spheres than the list holds, every sphere is tried and none is folded.
+  tiles[tile] = listed <= capacity ? tile_occlusion(field, view.groups, listed)
+                                   : tile_occlusion(no_field(), view.groups, ALL_SPHERES);
 }

@@ -14,7 +14,7 @@ namespace understory {
 /// How much distant spheres may be approximated together, per tile of 16 x 16 fragments, as changes of V.
 struct FarFieldError {
   float each = 1.0f / 1020;  // of one sphere: a quarter of an 8-bit step
-  float total = 1.0f / 128;  // of all spheres: the bound holds for each fragment; 0: every sphere exactly
+  float total = 1.0f / 64;   // of all spheres: the bound holds for each fragment; 0: every sphere exactly
 };
 
 class SolidAnglePass {

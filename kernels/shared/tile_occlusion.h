@@ -19,7 +19,8 @@ typedef struct {
   float xx, yy, zz, xy, xz, yz;  // M, off-diagonal entries doubled
   list_length listed;            // spheres in the tile's list, or ALL_SPHERES
   float error;                   // bound of what E and left-out spheres change V by
-  float padding_[4];
+  list_length groups;            // bit g mod 32 for every owner group g >= 0 of the tile's fragments
+  float padding_[3];
 } TileOcclusion;                 // 64 bytes
 
 #ifdef __OPENCL_C_VERSION__

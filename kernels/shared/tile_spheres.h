@@ -7,6 +7,7 @@
 #include "kernels/shared/fragment_tiles.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/records.h"
+#include "kernels/shared/shading_sphere.h"
 #include "kernels/shared/solid_angle.h"
 #include "kernels/shared/tile_bounds.h"
 #include "kernels/shared/tile_occlusion.h"
@@ -17,7 +18,7 @@
 typedef struct {
   real x, y, z, radius, opacity;
   whole group;
-  truth there;  // within the list, of positive radius and opacity, finite
+  truth there;  // within the list, and shades (shading_sphere.h)
 } SphereLanes;
 
 typedef struct {
@@ -48,8 +49,8 @@ SHARED SphereLanes load_spheres(global const ShadingSphere* spheres, uint first,
   s.radius = GATHER(real, spheres, row, .radius);
   s.opacity = at_most(GATHER(real, spheres, row, .opacity), REAL(1.0));
   s.group = GATHER(whole, spheres, row, .group);
-  const truth finite = (fabs(s.x) < REAL(1e18)) & (fabs(s.y) < REAL(1e18)) & (fabs(s.z) < REAL(1e18));
-  s.there = (lane < (bits)(count)) & (s.radius > REAL(0.0)) & (s.opacity > REAL(0.0)) & finite;
+  s.there = (lane < (bits)(count)) & (s.radius > (real)(SMALLEST)) & (s.radius < (real)(FARTHEST)) &
+            (s.opacity > REAL(0.0)) & in_reach(s.x, s.y, s.z);
   return s;
 }
 
@@ -132,15 +133,12 @@ SHARED void fold(const TileView view, const SphereLanes s, const SphereBounds bo
   field->yz = fma(REAL(2.0) * c2 * uy, uz, field->yz);
 }
 
-SHARED TileOcclusion tile_occlusion(const FarField field, uint listed) {
+SHARED TileOcclusion tile_occlusion(const FarField field, uint groups, uint listed) {
   const TileOcclusion tile = {total(field.level), total(field.x),  total(field.y),  total(field.z),
-                              total(field.xx),       total(field.yy), total(field.zz), total(field.xy),
-                              total(field.xz),       total(field.yz), listed,          field.error,
-                              {0, 0, 0, 0}};
+                              total(field.xx),    total(field.yy), total(field.zz), total(field.xy),
+                              total(field.xz),    total(field.yz), listed,          field.error,
+                              groups,             {0, 0, 0}};
   return tile;
 }
-
-/// The list is too short: every sphere is tried instead.
-SHARED TileOcclusion untouched_tile(void) { return tile_occlusion(no_field(), ALL_SPHERES); }
 
 #endif
