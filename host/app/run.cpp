@@ -41,13 +41,19 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
 }
 
-/// Takes over what the interrupted run has done. Throws Error(usage) when it was another run.
-void take_over(const RunFolder& folder, RunRecord& record) {
+/// Throws Error(usage) when the folder holds frames of a run that differs from `record`.
+void require_same_run(const RunFolder& folder, const RunRecord& record) {
   if (!folder.earlier()) return;
   const auto reasons = differences(*folder.earlier(), record);
   if (!reasons.empty())
     throw Error(ErrorKind::usage, fmt::format("{}: --resume needs the same run: {} (--force starts it anew)",
                                               folder.path().string(), fmt::join(reasons, "; ")));
+}
+
+/// Takes over what the interrupted run has done.
+void take_over(const RunFolder& folder, RunRecord& record) {
+  require_same_run(folder, record);
+  if (!folder.earlier()) return;
   record.device = folder.earlier()->device;
   record.plan = folder.earlier()->plan;
   record.programs = folder.earlier()->programs;
@@ -65,11 +71,8 @@ void add_programs(const Device& device, RunRecord& record) {
 int compute_frames(const RunOptions& options, const Scene& scene, const std::vector<int>& indices, int wanted,
                    RunFolder& folder, RunRecord& record) {
   Device device(options.device.device);
-  const std::string device_text = device_json(device.info()).dump();
-  RunRecord with_device = record;
-  with_device.device = device_text;
-  if (folder.earlier()) take_over(folder, with_device);
-  record.device = device_text;
+  record.device = device_json(device.info()).dump();
+  require_same_run(folder, record);
   const World world = build_world(scene);
   FrameRunner runner(device, world);
   record.plan.clear();

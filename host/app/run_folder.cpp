@@ -11,6 +11,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "host/app/checksum.hpp"
 #include "sim/error.hpp"
@@ -49,7 +50,10 @@ void remove_files(const fs::path& folder, Predicate predicate) {
   std::vector<fs::path> doomed;
   for (const auto& entry : fs::directory_iterator(folder))
     if (predicate(entry.path().filename().string())) doomed.push_back(entry.path());
-  for (const fs::path& path : doomed) fs::remove(path);
+  for (const fs::path& path : doomed) {
+    std::error_code error;
+    if (!fs::remove(path, error)) throw cannot("remove", path, error.value());
+  }
 }
 
 std::string read_text(const fs::path& path) {
@@ -92,9 +96,10 @@ std::string frame_file_name(std::string_view stem, int index, std::string_view e
   return fmt::format("{}_{:04}.{}", stem, index, extension);
 }
 
-RunFolder::RunFolder(const fs::path& path, ExistingRun existing) : path_(path) {
+RunFolder::RunFolder(const fs::path& path, ExistingRun existing)
+    : path_(path), replace_at_first_write_(existing == ExistingRun::replace) {
   std::error_code error;
-  fs::create_directories(path_, error);
+  created_ = fs::create_directories(path_, error);
   if (error || !fs::is_directory(path_)) throw cannot("create this folder", path_, error ? error.value() : ENOTDIR);
   const bool empty = fs::is_empty(path_, error);
   if (error) throw cannot("list this folder", path_, error.value());
@@ -103,27 +108,24 @@ RunFolder::RunFolder(const fs::path& path, ExistingRun existing) : path_(path) {
         ErrorKind::usage,
         fmt::format("{}: not empty (--resume goes on with the run in it, --force replaces its files)", path_.string()));
   journal_ = open_locked(path_ / journal_name);
+  if (existing != ExistingRun::resume) return;
   try {
-    if (existing == ExistingRun::replace) {
-      remove_files(path_, [](const std::string& name) {
-        return name != journal_name && (is_run_file(name) || is_temporary_file(name));
-      });
-      if (::ftruncate(journal_, 0) != 0) throw cannot("empty", path_ / journal_name);
-    }
-    if (existing == ExistingRun::resume) {
-      remove_files(path_, is_temporary_file);
-      read_earlier();
-    }
-  } catch (const fs::filesystem_error& failure) {
-    ::close(journal_);
-    throw cannot("clean this folder", path_, failure.code().value());
+    remove_files(path_, is_temporary_file);
+    read_earlier();
   } catch (...) {
     ::close(journal_);
     throw;
   }
 }
 
-RunFolder::~RunFolder() { ::close(journal_); }
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (!fs::exists(path_ / record_name, ignored)) {  // nothing has begun: leave no trace
+    fs::remove(path_ / journal_name, ignored);
+    if (created_) fs::remove(path_, ignored);
+  }
+  ::close(journal_);
+}
 
 void RunFolder::read_earlier() {
   const fs::path record_path = path_ / record_name;
@@ -141,6 +143,10 @@ void RunFolder::read_earlier() {
 }
 
 void RunFolder::write(const RunRecord& record) {
+  if (std::exchange(replace_at_first_write_, false))
+    remove_files(path_, [](const std::string& name) {
+      return name != journal_name && (is_run_file(name) || is_temporary_file(name));
+    });
   write_file_atomically(path_ / record_name, to_json_text(record));
   if (::ftruncate(journal_, 0) != 0) throw cannot("empty", path_ / journal_name);
 }

@@ -17,11 +17,12 @@ enum class ExistingRun { refuse, resume, replace };
 
 class RunFolder {
  public:
-  /// Creates the folder if need be and locks it against other processes. `refuse`: it must be empty. `replace`: deletes
-  /// files that a run could have written and nothing else. `resume`: deletes temporary files of a killed run and reads
-  /// what is done; a folder without a run is started afresh.
+  /// Creates the folder if need be and locks it against other processes. `refuse`: it must be empty. `replace`: the
+  /// first write() deletes files that a run could have written and nothing else. `resume`: deletes temporary files of a
+  /// killed run and reads what is done; a folder without a run is started afresh.
   /// Throws Error(usage) when it may not be used, Error(input_output) when it cannot.
   RunFolder(const std::filesystem::path& path, ExistingRun existing);
+  /// Without a write() a new folder is removed again.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
@@ -41,6 +42,7 @@ class RunFolder {
   void read_earlier();
   std::filesystem::path path_;
   int journal_ = -1;  // file descriptor of frames.jsonl, locked
+  bool created_ = false, replace_at_first_write_ = false;
   std::optional<RunRecord> earlier_;
 };
 

@@ -74,6 +74,7 @@ TEST_P(BadMeshTest, IsRefusedWithItsName) {
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_THAT(result.err, IsOneMessageWith("plant.obj"));
   EXPECT_THAT(result.err, HasSubstr(GetParam().message_part));
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpus, BadMeshTest,

@@ -60,6 +60,7 @@ TEST(Program, SaysWhatToDoWithoutADevice) {
   const FinishedProcess run = understory_command({"run", scenes_folder + "/tiny.yaml", "-o", folder / "out"}, none);
   EXPECT_EQ(run.exit_code, 4);
   EXPECT_THAT(run.err, IsOneMessageWith("pocl-opencl-icd"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out")) << "the same command must work once there is a device";
 }
 
 TEST(Program, NamesTheDevicesWhenTheOneAskedForIsMissing) {

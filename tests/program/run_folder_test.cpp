@@ -78,10 +78,20 @@ TEST_F(RunFolderTest, ReplacesOnlyFilesOfARun) {
                            ".frame_0002.tmp-77.exr", ".thesis.tmp-77.tex"})
     put(name, "x");
   RunFolder folder(path_, ExistingRun::replace);
+  EXPECT_TRUE(fs::exists(path_ / "frame_0001.exr")) << "nothing goes before the new run has begun";
+  folder.write(record());
   std::vector<std::string> left;
   for (const auto& entry : fs::directory_iterator(path_)) left.push_back(entry.path().filename());
-  EXPECT_THAT(left,
-              testing::UnorderedElementsAre("thesis.tex", "frame_notes.txt", ".thesis.tmp-77.tex", "frames.jsonl"));
+  EXPECT_THAT(left, testing::UnorderedElementsAre("thesis.tex", "frame_notes.txt", ".thesis.tmp-77.tex", "frames.jsonl",
+                                                  "run.json"));
+}
+
+TEST_F(RunFolderTest, LeavesNoTraceOfARunThatNeverBegan) {
+  { RunFolder folder(path_, ExistingRun::refuse); }
+  EXPECT_FALSE(fs::exists(path_));
+  fs::create_directories(path_);
+  { RunFolder folder(path_, ExistingRun::refuse); }
+  EXPECT_TRUE(fs::is_empty(path_)) << "a folder that was there stays";
 }
 
 TEST_F(RunFolderTest, IsWrittenByOneProcessAtATime) {
