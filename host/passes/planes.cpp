@@ -2,11 +2,17 @@
 
 #include <string>
 
+#include "kernels/shared/validity.h"
 #include "sim/error.hpp"
 #include "sim/frame.hpp"
 
 namespace understory {
 namespace {
+
+// Kernels write the codes that frames hold.
+static_assert(VALIDITY_BACKGROUND == validity::background && VALIDITY_NOT_FINITE == validity::not_finite &&
+              VALIDITY_NOT_UNIT == validity::not_unit && VALIDITY_OUTSIDE_MODEL == validity::outside_model &&
+              VALIDITY_OCCLUDER_TOO_CLOSE == validity::occluder_too_close);
 
 template <typename T>
 Buffer<T> filled(Device& device, std::size_t count, T value, const char* what) {

@@ -1,5 +1,5 @@
 // atan(y / x) for y, x >= 0 without a library call: an odd minimax polynomial in the smaller over the larger number.
-// Error below 5e-7 rad over the whole quadrant (tests/kernels/arc_tangent_test.cpp); 0 where both are 0.
+// Error below 5e-7 rad over the whole quadrant (tests/kernels/exp_minus_test.cpp); 0 where both are 0.
 #ifndef UNDERSTORY_ARC_TANGENT_H
 #define UNDERSTORY_ARC_TANGENT_H
 
