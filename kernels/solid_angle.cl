@@ -34,10 +34,11 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
 
   real v = far_visibility(far, a, b, c);
   truth too_close = (truth)(0);
-  const uint count = far.listed == ALL_SPHERES ? sphere_count : far.listed;
+  const int all = far.listed == ALL_SPHERES;
+  const uint count = all ? sphere_count : far.listed;
   for (uint j = 0; j < count; ++j) {
-    const ShadingSphere sphere = spheres[far.listed == ALL_SPHERES ? j : lists[tile * capacity + j]];
-    if (!sphere_shades(sphere)) continue;
+    const ShadingSphere sphere = spheres[all ? j : lists[tile * capacity + j]];
+    if (all && !sphere_shades(sphere)) continue;
     const float inverse_radius = 1.0f / sphere.radius;
     const real dx = ((real)(sphere.x) - x) * inverse_radius, dy = ((real)(sphere.y) - y) * inverse_radius;
     const real dz = ((real)(sphere.z) - z) * inverse_radius;
