@@ -32,6 +32,6 @@
   field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
   field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
   field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, listed) field(TileOcclusion, error)        \
-  field(TileOcclusion, padding_) record(TileOcclusion)
+  field(TileOcclusion, groups) field(TileOcclusion, padding_) record(TileOcclusion)
 
 #endif
