@@ -20,9 +20,6 @@ kernel void shade_ellipsoid_cap(global const float* position_x, global const flo
   const uint i = get_global_id(0);
   if (i >= items) return;
   const bits owners_here = owner_row(LOAD(owner, i), owners);
-  const real px = LOAD(position_x, i), py = LOAD(position_y, i), pz = LOAD(position_z, i);
-  const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
-
   real v = REAL(1.0);
   truth outside = (truth)(0);
   for (truth left = ALL_LANES; ANY(left);) {
@@ -32,14 +29,16 @@ kernel void shade_ellipsoid_cap(global const float* position_x, global const flo
     const int crown = owner_crown[row];
     if (crown < 0 || crown >= (int)crown_count) continue;
     global const CrownRecord* shell = crowns + crown;
-    const Direction offset = {px - shell->centre_x, py - shell->centre_y, pz - shell->centre_z};
+    const Direction offset = {LOAD(position_x, i) - shell->centre_x, LOAD(position_y, i) - shell->centre_y,
+                              LOAD(position_z, i) - shell->centre_z};
+    const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
     const Direction first = row_of(shell, 0), second = row_of(shell, 4), third = row_of(shell, 8);
     const Direction unit = to_unit_sphere(offset, first, second, third);
-    const real shaded = ellipsoid_cap(unit, normal, first, second, third, (real)(shell->volume_scale),
-                                      (real)(shell->alpha_rho));
+    const real shaded =
+        ellipsoid_cap(unit, normal, first, second, third, (real)(shell->volume_scale), (real)(shell->alpha_rho));
     v = PICK(lanes, shaded, v);
     outside |= lanes & outside_sphere(unit.x, unit.y, unit.z, REAL(1.0));
   }
   STORE(v, visibility, i);
-  STORE(LOAD(validity, i) | PICK(outside, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u)), validity, i);
+  if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
 }

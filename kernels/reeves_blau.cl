@@ -1,5 +1,5 @@
-// Ambient light by depth in the crown (shared/reeves_blau.h). Each fragment finds its crown through its owner; fragments
-// without a crown get 1. One work-item per W fragments; planes are padded (host/passes/planes.hpp).
+// Ambient light by depth in the crown (shared/reeves_blau.h). Each fragment finds its crown through its owner;
+// fragments without a crown get 1. One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/records.h"
@@ -14,8 +14,6 @@ kernel void shade_reeves_blau(global const float* position_x, global const float
   const uint i = get_global_id(0);
   if (i >= items) return;
   const bits owners_here = owner_row(LOAD(owner, i), owners);
-  const real px = LOAD(position_x, i), py = LOAD(position_y, i), pz = LOAD(position_z, i);
-
   real v = REAL(1.0);
   truth outside = (truth)(0);
   for (truth left = ALL_LANES; ANY(left);) {
@@ -25,10 +23,11 @@ kernel void shade_reeves_blau(global const float* position_x, global const float
     const int crown = owner_crown[row];
     if (crown < 0 || crown >= (int)crown_count) continue;
     global const CrownRecord* shell = crowns + crown;
-    const real x = px - shell->x, y = py - shell->y, z = pz - shell->z, radius = (real)(shell->radius);
+    const real x = LOAD(position_x, i) - shell->x, y = LOAD(position_y, i) - shell->y;
+    const real z = LOAD(position_z, i) - shell->z, radius = (real)(shell->radius);
     v = PICK(lanes, reeves_blau(x, y, z, radius, (real)(shell->ambient), (real)(shell->extinction)), v);
     outside |= lanes & outside_sphere(x, y, z, radius);
   }
   STORE(v, visibility, i);
-  STORE(LOAD(validity, i) | PICK(outside, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u)), validity, i);
+  if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
 }

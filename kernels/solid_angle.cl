@@ -1,5 +1,5 @@
-// How spheres (crowns of other plants, pieces of moving occluders) shade fragments: the product of 1 - opacity times the
-// blocked share over the spheres listed for the fragment's tile, times the tile's far occlusion (tile_spheres.cl).
+// How spheres (crowns of other plants, pieces of moving occluders) shade fragments: the product of 1 - opacity times
+// the blocked share over the spheres listed for the fragment's tile, times the tile's far occlusion (tile_spheres.cl).
 // -DSHARE=unit_solid_angle, unit_solid_angle_exact or unit_solid_angle_cosine chooses the share. A fragment is not
 // shaded by spheres of its own group. One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
@@ -12,12 +12,11 @@
 #include "kernels/shared/validity.h"
 
 kernel void shade_by_spheres(global const float* position_x, global const float* position_y,
-                             global const float* position_z, global const float* normal_x,
-                             global const float* normal_y, global const float* normal_z, global const uint* owner,
-                             global const int* owner_group, uint owners, global const ShadingSphere* spheres,
-                             uint sphere_count, global const TileOcclusion* tiles, global const uint* lists,
-                             uint capacity, uint row_length, uint items, global float* visibility,
-                             global uint* validity) {
+                             global const float* position_z, global const float* normal_x, global const float* normal_y,
+                             global const float* normal_z, global const uint* owner, global const int* owner_group,
+                             uint owners, global const ShadingSphere* spheres, uint sphere_count,
+                             global const TileOcclusion* tiles, global const uint* lists, uint capacity,
+                             uint row_length, uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const uint tile = tile_of_unit(i * W / UNIT, row_length);
@@ -53,5 +52,5 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
     too_close |= within;
   }
   STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
-  STORE(codes | PICK(drawn & too_close, (bits)(VALIDITY_OCCLUDER_TOO_CLOSE), (bits)(0u)), validity, i);
+  if (ANY(drawn & too_close)) add_validity(validity, i, drawn & too_close, VALIDITY_OCCLUDER_TOO_CLOSE);
 }

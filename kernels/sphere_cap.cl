@@ -7,16 +7,13 @@
 #include "kernels/shared/validity.h"
 
 kernel void shade_sphere_cap(global const float* position_x, global const float* position_y,
-                             global const float* position_z, global const float* normal_x,
-                             global const float* normal_y, global const float* normal_z, global const uint* owner,
-                             global const int* owner_crown, uint owners, global const CrownRecord* crowns,
-                             uint crown_count, uint items, global float* visibility, global uint* validity) {
+                             global const float* position_z, global const float* normal_x, global const float* normal_y,
+                             global const float* normal_z, global const uint* owner, global const int* owner_crown,
+                             uint owners, global const CrownRecord* crowns, uint crown_count, uint items,
+                             global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const bits owners_here = owner_row(LOAD(owner, i), owners);
-  const real px = LOAD(position_x, i), py = LOAD(position_y, i), pz = LOAD(position_z, i);
-  const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
-
   real v = REAL(1.0);
   truth outside = (truth)(0);
   for (truth left = ALL_LANES; ANY(left);) {
@@ -26,10 +23,14 @@ kernel void shade_sphere_cap(global const float* position_x, global const float*
     const int crown = owner_crown[row];
     if (crown < 0 || crown >= (int)crown_count) continue;
     global const CrownRecord* shell = crowns + crown;
-    const real x = px - shell->x, y = py - shell->y, z = pz - shell->z, radius = (real)(shell->radius);
-    v = PICK(lanes, sphere_cap(x, y, z, a, b, c, radius, (real)(shell->alpha_rho)), v);
+    const real x = LOAD(position_x, i) - shell->x, y = LOAD(position_y, i) - shell->y;
+    const real z = LOAD(position_z, i) - shell->z, radius = (real)(shell->radius);
+    v = PICK(
+        lanes,
+        sphere_cap(x, y, z, LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i), radius, (real)(shell->alpha_rho)),
+        v);
     outside |= lanes & outside_sphere(x, y, z, radius);
   }
   STORE(v, visibility, i);
-  STORE(LOAD(validity, i) | PICK(outside, (bits)(VALIDITY_OUTSIDE_MODEL), (bits)(0u)), validity, i);
+  if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
 }

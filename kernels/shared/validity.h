@@ -8,4 +8,14 @@
 #define VALIDITY_OUTSIDE_MODEL 8u
 #define VALIDITY_OCCLUDER_TOO_CLOSE 16u
 
+#ifdef __OPENCL_C_VERSION__
+#include "kernels/shared/real.h"
+
+/// Adds a code to the `flagged` lanes of work-item i. Call it only where there are any: codes are rare, and the plane
+/// is not touched otherwise.
+static inline void add_validity(global uint* validity, size_t i, truth flagged, uint code) {
+  STORE(LOAD(validity, i) | PICK(flagged, (bits)(code), (bits)(0u)), validity, i);
+}
+#endif
+
 #endif
