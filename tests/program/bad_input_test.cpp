@@ -16,6 +16,8 @@ struct BadScene {
   int line;
 };
 
+void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
+
 class BadSceneTest : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSceneTest, IsRefusedByEveryCommandThatReadsOne) {
@@ -61,6 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
 struct BadMesh {
   std::string name, text, message_part;
 };
+
+void PrintTo(const BadMesh& mesh, std::ostream* out) { *out << mesh.name; }
 
 class BadMeshTest : public testing::TestWithParam<BadMesh> {};
 
