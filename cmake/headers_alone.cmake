@@ -10,3 +10,5 @@ foreach(header ${headers})
 endforeach()
 add_library(headers_alone OBJECT EXCLUDE_FROM_ALL ${sources})
 target_link_libraries(headers_alone PRIVATE understory_options)
+# What tests/program/CMakeLists.txt tells its tests.
+target_compile_definitions(headers_alone PRIVATE UNDERSTORY_PROGRAM="" UNDERSTORY_SCENES="")
