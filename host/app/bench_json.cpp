@@ -50,7 +50,8 @@ std::vector<BenchResult> read_bench_results(const std::filesystem::path& file) {
   if (!stream) throw Error(ErrorKind::input_output, file.string() + ": cannot be read");
   try {
     std::vector<BenchResult> results;
-    for (const Json& json : Json::parse(stream).at("results")) results.push_back(from_json(json));
+    const Json report = Json::parse(stream);
+    for (const Json& json : report.at("results")) results.push_back(from_json(json));
     return results;
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorKind::invalid_input,
