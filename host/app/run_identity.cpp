@@ -17,15 +17,19 @@ namespace {
 
 std::map<std::string, std::string> hash_inputs(const Scene& scene) {
   std::map<std::string, std::string> hashes;
-  const auto add = [&](const std::filesystem::path& file) {
-    if (!file.empty()) hashes[file.filename().string()] = sha256_of_file(file);
+  // By the scene's key: two folders may hold files of one name.
+  const auto add = [&](const std::string& key, const std::filesystem::path& file) {
+    if (!file.empty()) hashes[key] = sha256_of_file(file);
   };
-  add(scene.terrain.file);
-  add(scene.wind.record);
-  for (const SpeciesSource& species : scene.species) add(species.mesh);
-  for (const OccluderSource& occluder : scene.occluders) {
-    add(occluder.motion_record);
-    for (const OccluderPart& part : occluder.parts) add(part.mesh);
+  add("terrain", scene.terrain.file);
+  add("wind.record", scene.wind.record);
+  for (const SpeciesSource& species : scene.species) add("species." + species.name + ".mesh", species.mesh);
+  for (std::size_t i = 0; i < scene.occluders.size(); ++i) {
+    const OccluderSource& occluder = scene.occluders[i];
+    const std::string key = "occluders." + std::to_string(i);
+    add(key + ".motion.record", occluder.motion_record);
+    for (std::size_t part = 0; part < occluder.parts.size(); ++part)
+      add(key + ".parts." + std::to_string(part) + ".mesh", occluder.parts[part].mesh);
   }
   return hashes;
 }

@@ -53,7 +53,7 @@ struct ExrHeader {
   const ExrChannel* find(const std::string& name) const;
 };
 
-/// Throws Error(invalid_input) for what is no complete flat EXR image of at most 2^26 pixels.
+/// Throws Error(invalid_input) for what is no complete flat EXR image of at most 2^28 pixels.
 ExrHeader read_exr_header(const std::filesystem::path& path);
 
 /// The named channels, in the display window; samples outside the data window are 0. HALF is widened; UINT and FLOAT

@@ -21,7 +21,7 @@
 namespace understory {
 namespace {
 
-constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 26;  // 8192 x 8192
+constexpr std::int64_t largest_pixel_count = std::int64_t{1} << 28;  // 16384 x 16384, the largest image of a scene
 constexpr std::size_t largest_channel_count = 1024;
 
 template <class T>
