@@ -30,7 +30,8 @@ kernel void pose_grass(global const float* root_x, global const float* root_y, g
                        global const float* flexibility, global const float* phase, const GrassWind wind,
                        global const float* series, uint first_blade, uint first_vertex, global float4* posed) {
   const size_t blade = first_blade / W + get_global_id(0);
-  const uint vertex = first_vertex + 7 * CHUNK * get_group_id(0) + W * get_local_id(0);
+  const uint lane = get_global_id(0) * W;  // whatever size of work-group the device grants
+  const uint vertex = first_vertex + 7 * CHUNK * (lane / CHUNK) + lane % CHUNK;
   const uint mask = wind.series_count - 1;
   const real half_period = (real)((float)(wind.series_count / 2));
 

@@ -50,8 +50,9 @@ kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
 kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint* index_a, global const uint* index_b,
                            global const uint* index_c, global const float4* posed, const CameraView camera,
                            global VisibleTriangle* pixels) {
-  global const TriangleChunk* chunk = chunks + get_group_id(0);
-  const uint lane = get_local_id(0) * W, t = chunk->first_index + lane;
+  const uint id = get_global_id(0) * W, lane = id % CHUNK;  // whatever size of work-group the device grants
+  global const TriangleChunk* chunk = chunks + id / CHUNK;
+  const uint t = chunk->first_index + lane;
   const uint first = chunk->first_vertex;
   const ProjectedCorners a = project_corners(&camera, gather_posed(posed, first, index_a + t));
   const ProjectedCorners b = project_corners(&camera, gather_posed(posed, first, index_b + t));
@@ -59,7 +60,6 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
   const whole covered = coverage(&camera, a, b, c);
   int marks[W];
   STORE(covered, marks, 0);
-  const uint id = get_group_id(0) * CHUNK + lane;
   draw_lanes(&camera, a, b, c, marks, id, pixels);
   for (uint i = 0; i < W; ++i)
     if (marks[i] == 2)
@@ -68,8 +68,8 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
 
 kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float4* posed,
                             const CameraView camera, global VisibleTriangle* pixels) {
-  const uint chunk_index = first_chunk + get_group_id(0), lane = get_local_id(0) * W;
-  global const TriangleChunk* chunk = chunks + chunk_index;
+  const uint id = first_chunk * CHUNK + get_global_id(0) * W, lane = id % CHUNK;
+  global const TriangleChunk* chunk = chunks + id / CHUNK;
   const Corners corners = grass_corners(chunk, lane);
   const ProjectedCorners a = project_corners(&camera, load_posed(posed, corners.a));
   const ProjectedCorners b = project_corners(&camera, load_posed(posed, corners.b));
@@ -77,7 +77,6 @@ kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk
   const whole covered = coverage(&camera, a, b, c);
   int marks[W];
   STORE(covered, marks, 0);
-  const uint id = chunk_index * CHUNK + lane;
   draw_lanes(&camera, a, b, c, marks, id, pixels);
   for (uint i = 0; i < W; ++i)
     if (marks[i] == 2) clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), posed, id + i, pixels);
