@@ -1,5 +1,6 @@
 #include "sim/grass.hpp"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -138,11 +139,18 @@ void drop_rootless(GrassBlades& blades, const std::vector<char>& stands) {
   resize(blades, kept);
 }
 
+constexpr double most_blades = 1e8;  // 7 vertices each: about what 32-bit ids and 16 GiB of a device can hold
+
 }  // namespace
 
 GrassBlades grow_grass(const GrassField& field, std::uint32_t index, std::uint64_t seed, const GroundHeight& ground,
                        const std::vector<Disc>& bare) {
-  const auto count = static_cast<std::size_t>(std::llround(field.density * field.region.area()));
+  const double asked = field.density * field.region.area();
+  if (asked > most_blades)
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("grass.{}: density {} over {} m^2 makes {:.3g} blades (allowed: at most {:.0f})", index,
+                            field.density, field.region.area(), asked, most_blades));
+  const auto count = static_cast<std::size_t>(std::llround(asked));
   const Tiling tiling = tile(field.region, double(count));
   const BarePlaces bare_places(field.region, bare);
   const std::uint64_t stream = stream_of("grass", index);

@@ -53,6 +53,7 @@ Transform on_track(const MotionRecord::Track& track, double time, double period)
   const std::vector<Transform>& poses = track.poses;
   if (time < times.front()) time += period;
   const auto after = std::ranges::upper_bound(times, time);
+  if (after == times.begin()) return poses.front();  // a record of one instant has no period
   if (after != times.end()) {
     const std::size_t next = static_cast<std::size_t>(after - times.begin());
     return between(poses[next - 1], poses[next], (time - times[next - 1]) / (times[next] - times[next - 1]));

@@ -55,6 +55,15 @@ TEST(Grass, HasTheDensityAndStatisticsAskedFor) {
   }
 }
 
+TEST(Grass, RefusesMoreBladesThanAnyDeviceHolds) {
+  GrassField field = meadow();
+  field.region = {{0, 0}, {1e4, 1e4}};
+  field.density = 1e4;
+  const std::string message = message_of(ErrorKind::invalid_input, [&] { grow_grass(field, 2, 1, level, {}); });
+  EXPECT_THAT(message, testing::HasSubstr("grass.2"));
+  EXPECT_THAT(message, testing::HasSubstr("1e+12"));
+}
+
 TEST(Grass, NeighboursInTheListAreNeighboursInTheField) {
   const GrassBlades blades = grow_grass(meadow(), 0, 1, level, {});
   double widest_sum = 0;

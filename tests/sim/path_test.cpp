@@ -142,6 +142,15 @@ TEST(MotionRecord, TurnsYUpIntoZUp) {
   EXPECT_LT(glm::distance(same_axes.apply({1, 0, 0}), glm::dvec3(0, 1, -1)), 1e-7);
 }
 
+TEST(MotionRecord, OfOneInstantStandsStill) {
+  const TemporaryFile file("motion.csv", fmt::format("{}0.5,arm,1,0,0,2,0,1,0,3,0,0,1,4\n", header));
+  const MotionRecord record = read_motion_record(file.path(), UpAxis::z);
+  for (double time : {-1.0, 0.0, 0.5, 7.0}) {
+    const glm::dvec3 place = record.at("arm", time).translation;
+    EXPECT_EQ(place, glm::dvec3(2, 3, 4)) << time;
+  }
+}
+
 TEST(MotionRecord, InterpolatesAndKeepsItsPartsTogether) {
   const TemporaryFile file("motion.csv", std::string(header) +
                                              "0,slide,1,0,0,0,0,1,0,0,0,0,1,0\n"
