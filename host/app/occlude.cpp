@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -28,7 +29,7 @@ struct OccludeOptions {
   DeviceOptions device;
   std::string input, output, channels, owner_channel, space;
   std::vector<double> camera;
-  double time = 0;
+  std::optional<double> time;
   bool json = false;
 };
 
@@ -43,6 +44,11 @@ GbufferOptions gbuffer_options(const OccludeOptions& options) {
     camera.position = {c[0], c[1], c[2]};
     camera.target = {c[3], c[4], c[5]};
     camera.vertical_fov = c[6] * glm::pi<double>() / 180;
+    const bool finite = std::all_of(c.begin(), c.end(), [](double number) { return std::isfinite(number); });
+    if (!finite || camera.position == camera.target || c[6] <= 0 || c[6] >= 180)
+      throw Error(ErrorKind::usage, fmt::format("--camera {}: allowed are finite numbers, a target other than the "
+                                                "position, and a field of view between 0 and 180 degrees",
+                                                fmt::join(c, " ")));
     gbuffer.camera = camera;
   }
   return gbuffer;
@@ -102,25 +108,35 @@ int occlude(const OccludeOptions& options) {
   use_threads(options.device);
   Gbuffer gbuffer = read_gbuffer(options.input, gbuffer_options(options));
   Frame& frame = gbuffer.frame;
+  const double time = options.time.value_or(frame.time);
   ExrAttributes attributes;
   std::optional<World> world;
   if (!options.scene.file.empty()) {
     const Scene scene = load_scene(options.scene);
     world = build_world(scene);
     settle_owners(options, *world, gbuffer);
+    if (frame.origin != scene.origin && frame.origin != glm::dvec3(0))
+      throw Error(
+          ErrorKind::invalid_input,
+          fmt::format("{}: its origin is ({}, {}, {}), the scene's ({}, {}, {}); allowed: the same", options.input,
+                      frame.origin.x, frame.origin.y, frame.origin.z, scene.origin.x, scene.origin.y, scene.origin.z));
+    frame.origin = scene.origin;
     attributes.seed = scene.seed;
     attributes.methods = scene.methods;
+    attributes.methods.grass = "none";
     attributes.scene_sha256 = sha256_of_text(resolved_scene(scene, PathStyle::file_name));
-    gbuffer.notes.push_back(fmt::format("scene: {} at {} s", options.scene.file, options.time));
+    gbuffer.notes.push_back(
+        fmt::format("scene: {} at {} s; crowns and occluders, but no grass model: the file lacks the blades' lengths",
+                    options.scene.file, time));
   } else {
     attributes.methods = {.tree = "none", .grass = "none", .crowns = "none", .occluders = "none"};
     gbuffer.notes.push_back(
-        "scene: none; only the share of the dome above each surface is computed (--scene gives crowns, "
-        "grass heights and occluders)");
+        "scene: none; only the share of the dome above each surface is computed (--scene gives crowns "
+        "and occluders)");
   }
   Device device(options.device.device);
-  frame.time = options.time;
-  shade_planes(device, world ? &*world : nullptr, attributes.methods, options.time, frame);
+  frame.time = time;
+  shade_planes(device, world ? &*world : nullptr, attributes.methods, time, frame);
   attributes.channels_in = fmt::format("{}", fmt::join(gbuffer.notes, "\n"));
   write_frame_exr(options.output, frame, attributes);
   print_result(options, gbuffer);
@@ -135,7 +151,7 @@ void add_occlude(CLI::App& program, Command& chosen) {
   command->add_option("IN", options->input, "EXR with position and normal")->required();
   command->add_option("-o,--output", options->output, "EXR to write")->required();
   add_scene_options(*command, options->scene, true);
-  command->add_option("--time", options->time, "Time of the scene, s");
+  command->add_option("--time", options->time, "Time of the scene, s (default: what the file says, else 0)");
   command->add_option("--channels", options->channels, "Which layer holds what, when names do not tell")
       ->type_name("ROLE=LAYER,...");
   command->add_option("--owner-channel", options->owner_channel, "Channel of row numbers in the scene's owner table");

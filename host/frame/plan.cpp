@@ -89,7 +89,9 @@ Plan make_plan(const World& world, const Methods& methods) {
 Plan make_visibility_plan(const World* world, const Methods& methods) {
   check_names(methods);
   Plan plan;
-  plan_visibility(world ? contents_of(*world) : Contents{}, methods, plan);
+  Contents contents = world ? contents_of(*world) : Contents{};
+  contents.bodies_beside_crowns = true;  // in the planes, which somebody else rendered
+  plan_visibility(contents, methods, plan);
   return plan;
 }
 

@@ -47,9 +47,9 @@ void read_visibility(const VisibilityPasses& passes, Frame& frame) {
   for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_first(plane, frame.pixels());
 }
 
-FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye, bool grass) {
+FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye) {
   FragmentPlanes planes =
-      allocate_planes(device, static_cast<std::size_t>(frame.width), static_cast<std::size_t>(frame.height), grass);
+      allocate_planes(device, static_cast<std::size_t>(frame.width), static_cast<std::size_t>(frame.height), false);
   write_first(planes.position_x, shifted(frame.position[0], -eye.x));
   write_first(planes.position_y, shifted(frame.position[1], -eye.y));
   write_first(planes.position_z, shifted(frame.position[2], -eye.z));

@@ -14,7 +14,7 @@ void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame);
 void read_visibility(const VisibilityPasses& passes, Frame& frame);
 
 /// The frame's planes on the device, camera-relative to `eye`.
-FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye, bool grass);
+FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye);
 
 /// The posed triangles of the last frame; `eye` is the camera's position relative to the origin.
 PosedGeometry read_geometry(const Geometry& geometry, glm::dvec3 eye);

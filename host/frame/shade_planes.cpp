@@ -63,11 +63,13 @@ void shade_planes(Device& device, const World* world, const Methods& methods, do
     frame.owners.assign(1, Owner{});
     frame.owner.assign(frame.pixels(), 0);
   }
-  const Plan plan = make_visibility_plan(world, methods);
-  FragmentPlanes planes = upload_planes(device, frame, eye, plan.has("grass-height"));
+  Methods usable = methods;
+  usable.grass = "none";  // planes of other renderers lack the blades' lengths
+  const Plan plan = make_visibility_plan(world, usable);
+  FragmentPlanes planes = upload_planes(device, frame, eye);
   const OwnerTables owners = upload_owners(device, frame.owners);
   CheckFragmentsPass(device).run(planes);
-  VisibilityPasses passes(device, world, methods, plan, static_cast<std::size_t>(frame.width),
+  VisibilityPasses passes(device, world, usable, plan, static_cast<std::size_t>(frame.width),
                           static_cast<std::size_t>(frame.height));
   passes.run(pose ? &*pose : nullptr, owners, planes);
   frame.pass_ms = device.take_pass_times();

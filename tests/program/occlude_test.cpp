@@ -17,15 +17,30 @@ TEST(Occlude, RepeatsWhatRunComputed) {
   ASSERT_EQ(understory_command({"run", scene, "-o", folder / "out", "--frames", "2", "--quiet"}).exit_code, 0);
   const std::string in = folder / "out/frame_0002.exr", out = folder / "again.exr";
   const Frame first = read_frame_exr(in);
-  const auto result =
-      understory_command({"occlude", in, "-o", out, "--scene", scene, "--time", std::to_string(first.time), "--json"});
+  const auto result = understory_command({"occlude", in, "-o", out, "--scene", scene, "--json"});  // at the file's time
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GE(nlohmann::json::parse(result.out).at("notes").size(), 2u);
   const Frame again = read_frame_exr(out);
+  EXPECT_EQ(again.time, first.time);
+  EXPECT_FALSE(again.terms.contains("grass-height")) << "nothing says how long the blades are";
   ASSERT_EQ(again.pixels(), first.pixels());
   for (std::size_t i = 0; i < first.pixels(); ++i) {
     if (first.owners.at(first.owner[i]).surface == SurfaceClass::blade) continue;  // the file lacks each blade's length
     ASSERT_NEAR(again.visibility[i], first.visibility[i], 2e-4) << "pixel " << i;  // positions pass through another eye
+  }
+}
+
+TEST(Occlude, RefusesACameraThatSeesNothing) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(understory_command({"run", scene, "-o", folder / "out", "--frames", "0", "--quiet"}).exit_code, 0);
+  for (const std::vector<std::string>& camera :
+       {std::vector<std::string>{"1", "2", "3", "1", "2", "3", "40"}, {"0", "0", "0", "1", "0", "0", "180"}}) {
+    std::vector<std::string> arguments = {"occlude", folder / "out/frame_0000.exr", "-o", folder / "x.exr", "--camera"};
+    arguments.insert(arguments.end(), camera.begin(), camera.end());
+    const auto result = understory_command(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_THAT(result.err, HasSubstr("--camera"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.exr"));
   }
 }
 

@@ -114,6 +114,9 @@ Gbuffer read_own(const std::filesystem::path& path) {
   Gbuffer result{read_frame_exr(path), {}};
   result.frame.terms.clear();
   result.frame.visibility.clear();
+  // What the methods of that run flagged says nothing about the next ones.
+  for (std::uint32_t& codes : result.frame.validity)
+    codes &= validity::background | validity::not_finite | validity::not_unit;
   result.notes = {"a frame of this program: P, N, Z, owner, validity and camera as stored"};
   return result;
 }
