@@ -9,7 +9,8 @@
 
 namespace understory {
 
-/// Points origin + s * direction for s in [nearest, farthest]; `direction` need not be unit.
+/// Points origin + s * direction for s in [nearest, farthest], nearest >= 0; `direction` need not be unit. A ray that
+/// is not finite or has no direction hits nothing.
 struct Ray {
   glm::vec3 origin{0};
   float nearest = 0;
@@ -27,7 +28,8 @@ struct Hit {
 };
 
 /// Triangles, two-sided and opaque, ready to be traced. Copies them. Calls are safe from many threads at once and run
-/// on the caller's; group rays of like origin or direction for speed: they are traced in packets.
+/// on the caller's. Hand over 64 rays or more at once: they are traced in streams. A ray's answer does not depend on
+/// those beside it.
 class Tracer {
  public:
   /// `triangles`: three indices each into `vertices`. Builds on all cores; the same input gives the same answers.
