@@ -1,0 +1,195 @@
+#include "sim/occlusion_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+/// Shares above this are all of the sphere: 256 rays and more, all blocked.
+constexpr float everything = 1 - 1e-6f;
+
+std::size_t index_of(const GridSize& size, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return (std::size_t(z) * size[1] + y) * size[0] + x;
+}
+
+template <class Visit>
+void for_each_sample(const GridSize& size, const Visit& visit) {
+  for (std::uint32_t z = 0; z < size[2]; ++z)
+    for (std::uint32_t y = 0; y < size[1]; ++y)
+      for (std::uint32_t x = 0; x < size[0]; ++x) visit(x, y, z, index_of(size, x, y, z));
+}
+
+bool on_face(const GridSize& size, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return x == 0 || y == 0 || z == 0 || x + 1 == size[0] || y + 1 == size[1] || z + 1 == size[2];
+}
+
+void scale_sample(OcclusionGrid& grid, std::size_t i, float factor) {
+  grid.share[i] *= factor;
+  if (grid.has_direction()) grid.direction[i] *= factor;
+}
+
+void rescale(OcclusionGrid& grid) {
+  float most = 0;
+  for_each_sample(grid.size, [&](auto x, auto y, auto z, std::size_t i) {
+    if (on_face(grid.size, x, y, z)) most = std::max(most, grid.share[i]);
+  });
+  grid.border = most;
+  for (std::size_t i = 0; i < grid.samples(); ++i) {
+    const float left = most < 1 ? std::max((grid.share[i] - most) / (1 - most), 0.0f) : 0;
+    scale_sample(grid, i, grid.share[i] > 0 ? left / grid.share[i] : 0);
+  }
+}
+
+/// 1 within the body's box, 0 on the border of the grid; linear in the least relative distance from it.
+float fade_weight(const OcclusionGrid& grid, const Box& body, const glm::vec3& p) {
+  float weight = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float below = p[axis] - grid.low[axis], above = grid.high[axis] - p[axis];
+    const float margin_below = static_cast<float>(body.low[axis]) - grid.low[axis];
+    const float margin_above = grid.high[axis] - static_cast<float>(body.high[axis]);
+    if (margin_below > 0) weight = std::min(weight, below / margin_below);
+    if (margin_above > 0) weight = std::min(weight, above / margin_above);
+  }
+  return std::clamp(weight, 0.0f, 1.0f);
+}
+
+void fade(OcclusionGrid& grid, const Box& body) {
+  for_each_sample(grid.size, [&](auto x, auto y, auto z, std::size_t i) {
+    scale_sample(grid, i, on_face(grid.size, x, y, z) ? 0 : fade_weight(grid, body, grid.position(x, y, z)));
+  });
+}
+
+std::uint8_t unorm8(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
+std::uint8_t snorm8(float value) {
+  return static_cast<std::uint8_t>(128 + std::lround(std::clamp(value, -1.0f, 1.0f) * 127));
+}
+
+}  // namespace
+
+glm::vec3 OcclusionGrid::position(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+  const glm::vec3 last(static_cast<float>(size[0] - 1), static_cast<float>(size[1] - 1),
+                       static_cast<float>(size[2] - 1));
+  return low + (high - low) * (glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) / last);
+}
+
+OccludedDirections occluded_at(const OcclusionGrid& grid, glm::dvec3 position) {
+  std::uint32_t first[3];
+  double part[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = grid.low[axis], high = grid.high[axis], last = grid.size[axis] - 1;
+    const double at = (position[axis] - low) / (high - low) * last;
+    if (!(at >= 0 && at <= last)) return {};
+    first[axis] = static_cast<std::uint32_t>(std::min(std::floor(at), last - 1));
+    part[axis] = at - first[axis];
+  }
+  double share = 0;
+  glm::dvec3 direction(0);
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    const std::uint32_t x = corner & 1u, y = corner >> 1 & 1u, z = corner >> 2;
+    const double weight = (x ? part[0] : 1 - part[0]) * (y ? part[1] : 1 - part[1]) * (z ? part[2] : 1 - part[2]);
+    const std::size_t i = index_of(grid.size, first[0] + x, first[1] + y, first[2] + z);
+    share += weight * double(grid.share[i]);
+    if (grid.has_direction()) direction += weight * glm::dvec3(grid.direction[i]);
+  }
+  return {static_cast<float>(share), glm::vec3(direction)};
+}
+
+Box grid_extent(const Box& body, double epsilon) {
+  const glm::dvec3 middle = 0.5 * (body.low + body.high), edges = body.high - body.low;
+  const glm::dvec3 area(edges.y * edges.z, edges.z * edges.x, edges.x * edges.y);
+  const double least = std::max({area.x, area.y, area.z}) / 16;
+  Box extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * edges[axis] + std::sqrt(std::max(area[axis], least) / (4 * std::numbers::pi * epsilon));
+    extent.low[axis] = middle[axis] - half;
+    extent.high[axis] = middle[axis] + half;
+  }
+  return extent;
+}
+
+void fill_inside(OcclusionGrid& grid) {
+  std::vector<std::size_t> inside;
+  std::vector<char> known(grid.samples(), 1);
+  for (std::size_t i = 0; i < grid.samples(); ++i)
+    if (grid.share[i] >= everything) inside.push_back(i), known[i] = 0;
+  while (!inside.empty() && inside.size() < grid.samples()) {
+    std::vector<std::size_t> left, filled;
+    for (const std::size_t i : inside) {
+      const auto x = static_cast<std::int64_t>(i % grid.size[0]),
+                 y = static_cast<std::int64_t>(i / grid.size[0] % grid.size[1]);
+      const auto z = static_cast<std::int64_t>(i / grid.size[0] / grid.size[1]);
+      float share = 0, count = 0;
+      glm::vec3 direction(0);
+      for (std::int64_t c = std::max<std::int64_t>(z - 1, 0); c <= std::min<std::int64_t>(z + 1, grid.size[2] - 1); ++c)
+        for (std::int64_t b = std::max<std::int64_t>(y - 1, 0); b <= std::min<std::int64_t>(y + 1, grid.size[1] - 1);
+             ++b)
+          for (std::int64_t a = std::max<std::int64_t>(x - 1, 0); a <= std::min<std::int64_t>(x + 1, grid.size[0] - 1);
+               ++a) {
+            const std::size_t j = index_of(grid.size, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                           static_cast<std::uint32_t>(c));
+            if (!known[j]) continue;
+            share += grid.share[j];
+            if (grid.has_direction()) direction += grid.direction[j];
+            ++count;
+          }
+      if (count == 0) {
+        left.push_back(i);
+        continue;
+      }
+      grid.share[i] = share / count;
+      if (grid.has_direction()) grid.direction[i] = direction / count;
+      filled.push_back(i);
+    }
+    if (filled.empty()) return;
+    for (const std::size_t i : filled) known[i] = 1;
+    inside = std::move(left);
+  }
+}
+
+void open_border(OcclusionGrid& grid, const Box& body, GridBorder how) {
+  if (how == GridBorder::rescale)
+    rescale(grid);
+  else
+    fade(grid, body);
+}
+
+std::vector<std::uint8_t> packed_share(const OcclusionGrid& grid) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(grid.samples());
+  for (const float share : grid.share) bytes.push_back(unorm8(share));
+  return bytes;
+}
+
+std::vector<std::uint8_t> packed_cone(const OcclusionGrid& grid) {
+  if (!grid.has_direction()) throw Error(ErrorKind::unexpected, "a scalar grid has no cones to pack");
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(4 * grid.samples());
+  for (std::size_t i = 0; i < grid.samples(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) bytes.push_back(snorm8(4 * grid.direction[i][axis]));
+    bytes.push_back(unorm8(grid.share[i]));
+  }
+  return bytes;
+}
+
+OcclusionGrid unpacked(const OcclusionGrid& shape, std::span<const std::uint8_t> bytes) {
+  OcclusionGrid grid = shape;
+  const bool cone = bytes.size() == 4 * shape.samples();
+  if (!cone && bytes.size() != shape.samples())
+    throw Error(ErrorKind::unexpected, "a packed grid of " + std::to_string(shape.samples()) + " samples has " +
+                                           std::to_string(bytes.size()) + " bytes");
+  grid.share.assign(shape.samples(), 0);
+  grid.direction.assign(cone ? shape.samples() : 0, glm::vec3(0));
+  for (std::size_t i = 0; i < shape.samples(); ++i) {
+    grid.share[i] = static_cast<float>(bytes[cone ? 4 * i + 3 : i]) / 255;
+    if (cone)
+      for (int axis = 0; axis < 3; ++axis)
+        grid.direction[i][axis] = static_cast<float>(bytes[4 * i + axis] - 128) / (4 * 127.0f);
+  }
+  return grid;
+}
+
+}  // namespace understory
