@@ -13,22 +13,18 @@
 #include "host/trace/quads.hpp"
 #include "sim/random.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/triangles.hpp"
 
 namespace understory {
 namespace {
-
-struct Soup {
-  std::vector<glm::vec3> vertices;
-  std::vector<std::uint32_t> triangles;
-};
 
 glm::vec3 random_point(Random& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }
 
 /// Small triangles in the cube [-1, 1]^3, every second one joined to the one before along an edge.
-Soup random_soup(std::uint32_t count, double size) {
-  Soup soup;
+Triangles random_soup(std::uint32_t count, double size) {
+  Triangles soup;
   for (std::uint32_t t = 0; t < count; ++t) {
     Random random(11, stream_of("soup"), t);
     const auto next = static_cast<std::uint32_t>(soup.vertices.size());
@@ -57,7 +53,7 @@ std::vector<Ray> random_rays(std::size_t count) {
 
 /// Moeller and Trumbore 1997 in double; infinity: no hit. `margin`: how far inside the triangle and the span, or how
 /// far outside, in barycentric units and metres.
-double distance_to(const Soup& soup, std::size_t t, const Ray& ray, double& margin) {
+double distance_to(const Triangles& soup, std::size_t t, const Ray& ray, double& margin) {
   const auto corner = [&](std::size_t k) { return glm::dvec3(soup.vertices[soup.triangles[3 * t + k]]); };
   const glm::dvec3 a = corner(0), e1 = corner(1) - a, e2 = corner(2) - a, d(ray.direction),
                    s = glm::dvec3(ray.origin) - a;
@@ -83,7 +79,7 @@ std::vector<Hit> nearest(const Tracer& tracer, const std::vector<Ray>& rays) {
 }
 
 TEST(Tracer, FindsWhatASearchThroughAllTrianglesFinds) {
-  const Soup soup = random_soup(301, 0.3);
+  const Triangles soup = random_soup(301, 0.3);
   const Tracer tracer(soup.vertices, soup.triangles);
   const std::vector<Ray> rays = random_rays(5000);
   const auto shadow = blocked(tracer, rays);
@@ -110,7 +106,7 @@ TEST(Tracer, FindsWhatASearchThroughAllTrianglesFinds) {
 }
 
 TEST(Tracer, AnswersEachRayAlikeInAnyCompany) {
-  const Soup soup = random_soup(20000, 0.05);
+  const Triangles soup = random_soup(20000, 0.05);
   const Tracer tracer(soup.vertices, soup.triangles);
   const std::vector<Ray> rays = random_rays(60000);
   const auto together = blocked(tracer, rays);
@@ -133,27 +129,9 @@ TEST(Tracer, AnswersEachRayAlikeInAnyCompany) {
   }
 }
 
-/// A ball of `rings` by 2 `rings` cells, closed, of radius 1 about `centre`.
-Soup closed_ball(std::uint32_t rings, glm::vec3 centre) {
-  Soup soup;
-  const std::uint32_t columns = 2 * rings;
-  for (std::uint32_t i = 0; i <= rings; ++i)
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      const double polar = M_PI * i / rings, azimuth = 2 * M_PI * j / columns;
-      soup.vertices.push_back(centre + glm::vec3(std::sin(polar) * std::cos(azimuth),
-                                                 std::sin(polar) * std::sin(azimuth), std::cos(polar)));
-    }
-  for (std::uint32_t i = 0; i < rings; ++i)
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      const std::uint32_t a = i * columns + j, b = i * columns + (j + 1) % columns;
-      soup.triangles.insert(soup.triangles.end(), {a, a + columns, b + columns, a, b + columns, b});
-    }
-  return soup;
-}
-
 TEST(Tracer, LetsNothingOutOfAClosedBall) {
   for (const glm::vec3 centre : {glm::vec3(0), glm::vec3(300, -200, 50)}) {
-    const Soup ball = closed_ball(200, centre);
+    const Triangles ball = sphere(200, centre, 1);
     const Tracer tracer(ball.vertices, ball.triangles);
     std::vector<Ray> rays(300000);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -184,7 +162,7 @@ TEST(Tracer, KeepsToTheSpanOfARay) {
 }
 
 TEST(Tracer, HitsNothingWithRaysThatAreNone) {
-  const Soup ball = closed_ball(8, glm::vec3(0));
+  const Triangles ball = sphere(8, glm::vec3(0), 1);
   const Tracer tracer(ball.vertices, ball.triangles);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), endless = std::numeric_limits<float>::infinity();
   const std::vector<Ray> rays = {{{nan, 0, 0}, 0, {0, 0, 1}, endless},     {{0, 0, 0}, 0, {0, nan, 1}, endless},
@@ -209,7 +187,7 @@ TEST(Tracer, RefusesIndicesOutOfRange) {
 }
 
 TEST(PairTriangles, KeepsEveryTriangleOnce) {
-  const Soup soup = random_soup(1001, 0.1);
+  const Triangles soup = random_soup(1001, 0.1);
   const QuadMesh mesh = pair_triangles(soup.vertices.size(), soup.triangles);
   EXPECT_EQ(mesh.corners.size(), 501u) << "500 pairs and one alone";
   std::vector<int> seen(1001, 0);
