@@ -97,6 +97,11 @@ Transform transform_of(const Keyframe& keyframe) {
   return {z * y * x, keyframe.position};
 }
 
+double path_duration(const std::vector<Keyframe>& keyframes, bool loop) {
+  if (keyframes.size() < 2) return 0;
+  return loop ? Knots(keyframes, loop).period() : keyframes.back().time - keyframes.front().time;
+}
+
 Transform path_at(const std::vector<Keyframe>& keyframes, bool loop, double time) {
   if (keyframes.empty()) return {};
   if (keyframes.size() == 1) return transform_of(keyframes.front());

@@ -30,4 +30,7 @@ Transform transform_of(const Keyframe& keyframe);
 /// keyframes less than half a turn apart. Throws Error(invalid_input) when times do not increase.
 Transform path_at(const std::vector<Keyframe>& keyframes, bool loop, double time);
 
+/// Seconds from the first keyframe to the last, or of one turn of a loop; 0 for fewer than two keyframes.
+double path_duration(const std::vector<Keyframe>& keyframes, bool loop);
+
 }  // namespace understory

@@ -130,17 +130,20 @@ struct Keyframe {
 /// A rigid piece of an occluder. Its motion is relative to the occluder's own path.
 struct OccluderPart {
   std::string name;
-  enum class Shape { box, ellipsoid, capsule, mesh } shape = Shape::box;
+  enum class Shape { box, ellipsoid, capsule, mesh, stacked } shape = Shape::box;
   glm::dvec3 size{1};          // box: edges; ellipsoid: diameters; capsule: (diameter, diameter, whole length along z)
   std::filesystem::path mesh;  // mesh only
   std::string mesh_object;     // mesh only: object inside the file; empty: all
   UpAxis up = UpAxis::y;       // mesh only
   double scale = 1;            // mesh only
-  std::vector<Keyframe> keyframes;  // smooth through all; one or none: fixed
+  std::vector<Keyframe> keyframes;   // smooth through all; one or none: fixed
+  std::vector<glm::dvec3> sections;  // stacked only, which generators make: (diameter in x, in y, z), from below
 };
 
 struct OccluderSource {
   std::string name;
+  std::string generator;  // walker: makes the parts (sim/walker.hpp); empty when `parts` are given
+  double height = 1.8;    // m; generator only
   std::vector<OccluderPart> parts;
   std::vector<Keyframe> keyframes;  // path of the whole; z is above the terrain when `on_terrain`
   bool on_terrain = true;

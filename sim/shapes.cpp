@@ -10,17 +10,17 @@ namespace {
 
 constexpr int meridians = 48, rings = 24;  // 7.5 degrees a facet
 
-/// Upper pole, rows of `meridians` vertices from top to bottom, lower pole. A row is (share of the radii, height).
-RawMesh::Part revolve(const std::vector<glm::dvec2>& rows, glm::dvec2 radii, double top) {
+/// Upper pole, rows of `meridians` vertices from top to bottom, lower pole. A row is (radius in x, in y, height).
+RawMesh::Part stack_ellipses(const std::vector<glm::dvec3>& rows, double top, double bottom) {
   RawMesh::Part part;
   part.surface = SurfaceClass::occluder;
   part.positions.emplace_back(0, 0, top);
-  for (const glm::dvec2& row : rows)
+  for (const glm::dvec3& row : rows)
     for (int m = 0; m < meridians; ++m) {
       const double azimuth = 2 * std::numbers::pi * m / meridians;
-      part.positions.emplace_back(row.x * radii.x * std::cos(azimuth), row.x * radii.y * std::sin(azimuth), row.y);
+      part.positions.emplace_back(row.x * std::cos(azimuth), row.y * std::sin(azimuth), row.z);
     }
-  part.positions.emplace_back(0, 0, -top);
+  part.positions.emplace_back(0, 0, bottom);
   const auto last = static_cast<std::uint32_t>(part.positions.size() - 1);
   const auto vertex = [](std::size_t row, int m) {
     return static_cast<std::uint32_t>(1 + row * meridians + m % meridians);
@@ -41,14 +41,14 @@ RawMesh::Part revolve(const std::vector<glm::dvec2>& rows, glm::dvec2 radii, dou
 
 /// Two half ellipsoids of the given radii, their equators at z = +-apart with a cylinder between.
 RawMesh::Part round_part(glm::dvec3 radii, double apart) {
-  std::vector<glm::dvec2> rows;
+  std::vector<glm::dvec3> rows;
   for (int ring = 1; ring < rings; ++ring) {
     const double polar = std::numbers::pi * ring / rings;
-    if (2 * ring <= rings) rows.emplace_back(std::sin(polar), radii.z * std::cos(polar) + apart);
-    if (2 * ring > rings || (2 * ring == rings && apart > 0))
-      rows.emplace_back(std::sin(polar), radii.z * std::cos(polar) - apart);
+    const glm::dvec3 row = radii * glm::dvec3(std::sin(polar), std::sin(polar), std::cos(polar));
+    if (2 * ring <= rings) rows.push_back(row + glm::dvec3(0, 0, apart));
+    if (2 * ring > rings || (2 * ring == rings && apart > 0)) rows.push_back(row - glm::dvec3(0, 0, apart));
   }
-  return revolve(rows, glm::dvec2(radii), radii.z + apart);
+  return stack_ellipses(rows, radii.z + apart, -radii.z - apart);
 }
 
 /// Area of the convex hull of points in the plane (Andrew's monotone chain). Reorders the points.
@@ -90,6 +90,13 @@ RawMesh::Part ellipsoid_part(glm::dvec3 diameters) { return round_part(diameters
 RawMesh::Part capsule_part(glm::dvec3 size) {
   const double cap = std::min((size.x + size.y) / 4, size.z / 2);
   return round_part({size.x / 2, size.y / 2, cap}, size.z / 2 - cap);
+}
+
+RawMesh::Part stacked_part(const std::vector<glm::dvec3>& sections) {
+  std::vector<glm::dvec3> rows;
+  for (auto section = sections.rbegin(); section != sections.rend(); ++section)
+    rows.push_back(*section * glm::dvec3(0.5, 0.5, 1));
+  return stack_ellipses(rows, rows.front().z, rows.back().z);
 }
 
 double mean_shadow_area(const std::vector<glm::vec3>& points) {

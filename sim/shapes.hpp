@@ -13,6 +13,9 @@ RawMesh::Part box_part(glm::dvec3 edges);
 RawMesh::Part ellipsoid_part(glm::dvec3 diameters);
 /// Along z: (diameter, diameter, whole length). A length below the diameter flattens the caps.
 RawMesh::Part capsule_part(glm::dvec3 size);
+/// Ellipses one above the other, joined by straight walls, flat at both ends. A section is (diameter in x, in y, z), z
+/// increases; at least two.
+RawMesh::Part stacked_part(const std::vector<glm::dvec3>& sections);
 
 struct Sphere {
   glm::dvec3 centre{0};

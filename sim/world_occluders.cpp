@@ -7,6 +7,8 @@
 #include "sim/files/mesh.hpp"
 #include "sim/plants/species.hpp"
 #include "sim/shapes.hpp"
+#include "sim/terrain.hpp"
+#include "sim/walker.hpp"
 #include "sim/world_builder.hpp"
 
 namespace understory {
@@ -36,6 +38,8 @@ std::vector<RawMesh::Part> pieces_of(const OccluderPart& part, const std::string
       return {ellipsoid_part(part.size)};
     case OccluderPart::Shape::capsule:
       return {capsule_part(part.size)};
+    case OccluderPart::Shape::stacked:
+      return {stacked_part(part.sections)};
     case OccluderPart::Shape::mesh:
       break;
   }
@@ -62,7 +66,9 @@ void split_runs_by_limb(Prototype& prototype) {
 
 void add_occluders(World& world, Dynamics& dynamics) {
   for (std::size_t o = 0; o < world.scene.occluders.size(); ++o) {
-    const OccluderSource& source = world.scene.occluders[o];
+    OccluderSource& source = world.scene.occluders[o];
+    if (source.generator == "walker")
+      source = make_walker(source, [&](glm::dvec2 at) { return world.terrain ? world.terrain->height_at(at) : 0.0; });
     MotionRecord record;
     if (!source.motion_record.empty()) record = read_motion_record(source.motion_record, source.motion_up);
 

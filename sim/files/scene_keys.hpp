@@ -265,8 +265,11 @@ void keys(Archive& a, OccluderPart& part) {
 
 template <class Archive>
 void keys(Archive& a, OccluderSource& occluder) {
-  a.require({"name", "parts"});
+  a.require({"name"});
   a.text("name", occluder.name, "unique among the occluders");
+  a.exactly_one({"parts", "generator"});
+  a.word("generator", occluder.generator, {"walker"}, "a person of eleven parts, whose steps follow `keyframes`");
+  a.number("height", occluder.height, above_zero(1000, "m"), "of the generated body");
   a.list("parts", occluder.parts, "its rigid pieces", 1);
   keyframes(a, occluder.keyframes, "path of the whole, smooth through all; none or one: stays");
   a.flag("on_terrain", occluder.on_terrain, "z of the path is above the ground below it");
@@ -278,6 +281,8 @@ void keys(Archive& a, OccluderSource& occluder) {
   };
   a.section("motion", "recorded movement of the parts instead of their keyframes", motion,
             !occluder.motion_record.empty());
+  a.goes_with("generator", {"height"});
+  a.excludes("generator", {"motion"});
   colour(a, "albedo", occluder.albedo, "share of light that is reflected, linear red, green, blue");
 }
 

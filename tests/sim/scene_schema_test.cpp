@@ -49,11 +49,16 @@ const std::string accepted[] = {
     R"({"occluders": [{"name": "a", "loop": true, )" + box + R"(, "keyframes": [{"time": 0}, {"time": 1}]}]})",
     R"({"occluders": [{"name": "a", "motion": {"record": "scene.json", "up": "z"}, )" + box + "}]}",
     R"({"occluders": [{"name": "a", "parts": [{"mesh": "scene.json", "object": "b", "scale": 2}]}]})",
+    R"({"occluders": [{"name": "a", "generator": "walker", "height": 1.7, "keyframes": [{"time": 0}, {"time": 1}]}]})",
     R"({"terrain": {"raster": {"file": "scene.json", "height": 3}, "albedo": [1, 1, 1]}})",
     R"({"terrain": "none", "occluders": [{"name": "a", )" + box + "}]}",
 };
 
 const std::string refused[] = {
+    R"({"occluders": [{"name": "a"}]})",
+    R"({"occluders": [{"name": "a", "generator": "walker", )" + box + "}]}",
+    R"({"occluders": [{"name": "a", "height": 1.7, )" + box + "}]}",
+    R"({"occluders": [{"name": "a", "generator": "walker", "motion": {"record": "scene.json"}}]})",
     "{}",
     "[]",
     R"({"terrain": "none"})",

@@ -38,6 +38,7 @@ TEST(Shapes, AreClosedAndHaveTheirVolume) {
   for (const auto& [part, expected, tolerance] :
        {std::tuple{box_part(size), size.x * size.y * size.z, 1e-6},
         std::tuple{ellipsoid_part(size), pi / 6 * size.x * size.y * size.z, 0.01},
+        std::tuple{stacked_part({{0.4, 0.6, -1}, {0.8, 1.2, 1}}), pi / 4 * 0.24 * 2 * 7 / 3, 0.01},
         std::tuple{capsule_part({0.6, 0.6, 2}), pi * 0.09 * 1.4 + pi / 6 * 0.216, 0.01}}) {
     expect_closed(part);
     EXPECT_NEAR(volume(part) / expected, 1, tolerance);

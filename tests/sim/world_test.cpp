@@ -155,6 +155,7 @@ TEST(World, RealTruckHasThreePartsOfItsFileEach) {
                            name,
                            UpAxis::y,
                            1,
+                           {},
                            {}});
   scene.occluders.push_back(truck);
   const World world = build_world(scene);

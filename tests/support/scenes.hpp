@@ -45,11 +45,11 @@ inline Scene small_meadow() {
   }
   OccluderSource ball;
   ball.name = "ball";
-  ball.parts.push_back({"ball", OccluderPart::Shape::ellipsoid, glm::dvec3(0.8), {}, {}, UpAxis::y, 1, {}});
+  ball.parts.push_back({"ball", OccluderPart::Shape::ellipsoid, glm::dvec3(0.8), {}, {}, UpAxis::y, 1, {}, {}});
   ball.keyframes = {{0, {-5, 0, 0.4}, {0, 0, 0}}, {2, {5, 1, 0.4}, {0, 3, 0}}, {4, {9, 4, 0.4}, {0, 6, 1}}};
   OccluderSource animal;
   animal.name = "animal";
-  animal.parts.push_back({"body", OccluderPart::Shape::ellipsoid, {1.6, 0.6, 0.7}, {}, {}, UpAxis::y, 1, {}});
+  animal.parts.push_back({"body", OccluderPart::Shape::ellipsoid, {1.6, 0.6, 0.7}, {}, {}, UpAxis::y, 1, {}, {}});
   animal.parts.push_back(
       {"leg",
        OccluderPart::Shape::capsule,
@@ -58,7 +58,8 @@ inline Scene small_meadow() {
        {},
        UpAxis::y,
        1,
-       {{0, {0.5, 0, -0.6}, {0, -0.4, 0}}, {0.5, {0.5, 0, -0.6}, {0, 0.4, 0}}, {1, {0.5, 0, -0.6}, {0, -0.4, 0}}}});
+       {{0, {0.5, 0, -0.6}, {0, -0.4, 0}}, {0.5, {0.5, 0, -0.6}, {0, 0.4, 0}}, {1, {0.5, 0, -0.6}, {0, -0.4, 0}}},
+       {}});
   animal.keyframes = {{0, {0, -6, 1}, {0, 0, 0}}, {10, {0, 6, 1}, {0, 0, 0.5}}};
   scene.occluders = {ball, animal};
   return scene;
