@@ -13,10 +13,16 @@ lint() {
 
 for kernel in kernels/*.cl; do
   case $kernel in
-    kernels/tile_spheres.cl) widths=16 ;;
+    kernels/tile_*.cl) widths=16 ;;
     *) widths="1 4 8 16" ;;
   esac
   for width in $widths; do
+    if grep -q COMBINE "$kernel"; then
+      for rule in multiply simple merge; do lint "$kernel" "-DW=$width" "-DCOMBINE=$rule"; done
+      lint "$kernel" "-DW=$width" -DCOMBINE=merge -DPAPER_CONE
+      continue
+    fi
+    if grep -q SELF_PAPER "$kernel"; then lint "$kernel" "-DW=$width" -DSELF_PAPER; fi
     for variant in unit_solid_angle unit_solid_angle_exact unit_solid_angle_cosine; do
       lint "$kernel" "-DW=$width" "-DSHARE=$variant"
       grep -q SHARE "$kernel" || break

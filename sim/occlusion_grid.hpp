@@ -14,9 +14,10 @@ using GridSize = std::array<std::uint32_t, 3>;
 
 inline constexpr std::uint32_t least_grid_size = 2, largest_grid_size = 512;
 
-/// How occlusion ends at the border. `rescale`: section 3.3.2, max(0, (a - M)/(1 - M)), M the largest value on the
-/// faces. `fade`: the traced values, times a weight that falls from 1 at the body's box to 0 at the border.
-enum class GridBorder { rescale, fade };
+/// How occlusion ends at the border. `fade`: the traced values, times a weight that falls to 0 over the outer 1/16 of
+/// the box. `rescale`: the paper's section 3.3.2, max(0, (a - M)/(1 - M)) with M the largest value on the faces, which
+/// takes M from every value in the box: four times the error (bench/README.md).
+enum class GridBorder { fade, rescale };
 
 /// Occluded directions at one point: their share of the full sphere, eq. 5, in [0, 1], and their mean direction times
 /// that share, (1/4 pi) times the integral of the direction, at most 1/4 long. A receiver of normal n that sees all of
@@ -52,8 +53,8 @@ Box grid_extent(const Box& body, double epsilon);
 /// are not, layer by layer until none is left. A grid that is blocked everywhere stays as it is.
 void fill_inside(OcclusionGrid& grid);
 
-/// Makes the border open. `body`: the mesh's bounding box.
-void open_border(OcclusionGrid& grid, const Box& body, GridBorder how);
+/// Makes the border open.
+void open_border(OcclusionGrid& grid, GridBorder how);
 
 /// 8-bit storage: share as unorm8 (32 KiB at 32^3), or four bytes a sample (128 KiB): 4 direction as snorm8 + 128, then
 /// the share as unorm8. Off by at most 1/510 of the share and 1/1016 of each component of the direction.

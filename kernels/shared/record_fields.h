@@ -1,6 +1,7 @@
 // The fields of every record that host and device share, for the test that compares how host and device lay them out.
 #ifndef UNDERSTORY_RECORD_FIELDS_H
 #define UNDERSTORY_RECORD_FIELDS_H
+#include "kernels/shared/grid_record.h"
 #include "kernels/shared/ground_cover.h"
 #include "kernels/shared/records.h"
 #include "kernels/shared/tile_occlusion.h"
@@ -29,6 +30,9 @@
   field(GroundCoverGrid, low_x) field(GroundCoverGrid, low_y) field(GroundCoverGrid, cells_per_metre_x)             \
   field(GroundCoverGrid, cells_per_metre_y) field(GroundCoverGrid, columns) field(GroundCoverGrid, rows)            \
   field(GroundCoverGrid, padding_) record(GroundCoverGrid)                                                          \
+  field(GridRecord, to_grid) field(GridRecord, axes) field(GridRecord, first) field(GridRecord, width)              \
+  field(GridRecord, height) field(GridRecord, depth) field(GridRecord, group) field(GridRecord, border)             \
+  field(GridRecord, padding_) record(GridRecord)                                                                    \
   field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
   field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
   field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, listed) field(TileOcclusion, error)        \

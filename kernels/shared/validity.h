@@ -7,6 +7,7 @@
 #define VALIDITY_NOT_UNIT 4u
 #define VALIDITY_OUTSIDE_MODEL 8u
 #define VALIDITY_OCCLUDER_TOO_CLOSE 16u
+#define VALIDITY_GRID_BORDER 128u
 
 #ifdef __OPENCL_C_VERSION__
 #include "kernels/shared/real.h"

@@ -24,6 +24,10 @@ inline constexpr double ground_cover = 2e-5;
 inline constexpr double solid_angle = 1.5e-5;
 // A product of up to 40 factors, most of them far from where the fits err most.
 inline constexpr double solid_angle_product = 4e-5;
+// Six trilinear look-ups: positions of some metres are rounded to 24 bits, and occlusion changes by up to 1 per sample.
+inline constexpr double grid = 2e-5;
+// The same, then closed forms of arc tangents; a small cone's direction comes from few of its 8-bit units.
+inline constexpr double grid_cone = 2e-4;
 // Product of six numbers in [0, 1].
 inline constexpr double combine = 5e-7;
 // Quadrature over a cap's polar angle, 4000 nodes: its own error, found by doubling them.

@@ -1,0 +1,40 @@
+#include "host/passes/grid_cone.hpp"
+
+#include <algorithm>
+
+#include "kernels/shared/fragment_tiles.h"
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+std::string cone_options(const std::string& method, const std::string& combine) {
+  if (method != "grid-cone" && method != "grid-cone-paper")
+    throw Error(ErrorKind::unexpected, "method '" + method + "' is not one of grid-cone, grid-cone-paper");
+  if (combine != "multiply" && combine != "simple" && combine != "merge")
+    throw Error(ErrorKind::unexpected, "combining rule '" + combine + "' is not one of multiply, simple, merge");
+  return " -DCOMBINE=" + combine + (method == "grid-cone-paper" ? " -DPAPER_CONE" : "");
+}
+
+}  // namespace
+
+GridConePass::GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes)
+    : method_(method),
+      lanes_(device, lanes),
+      tiles_(device, method),
+      kernel_(device, "grid_cone", "shade_grid_cone", method, lanes_.option() + cone_options(method, combine)) {}
+
+void GridConePass::run(const FragmentPlanes& planes, const OwnerTables& owners, const GridTable& grids,
+                       Buffer<float>& visibility) {
+  require_planes(method_.c_str(), planes, visibility);
+  require_some(method_.c_str(), "grid samples", grids.samples().size());
+  tiles_.run(planes, grids);
+  const std::uint32_t items = lanes_.items(planes);
+  const auto row_length = static_cast<std::uint32_t>(std::max<std::size_t>(planes.row_length, UNIT));
+  kernel_.launch(items, lanes_.local_size(1), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
+                 planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(), grids.records(),
+                 grids.count(), grids.samples(), tiles_.listed(), tiles_.lists(), tiles_.capacity(), row_length, items,
+                 visibility, planes.validity);
+}
+
+}  // namespace understory

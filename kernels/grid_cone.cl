@@ -1,0 +1,68 @@
+// `grid-cone`: the cone of directions that each body near a fragment occludes, looked up in its grid, clipped by the
+// fragment's tangent plane and put together with the others' (Malmer et al. 2005 section 5). V_c. A body's own fragments
+// need no rule of their own: what it occludes below their plane is clipped away.
+// -DCOMBINE=multiply, simple or merge (shared/running_cone.h). -DPAPER_CONE: every cone is opaque, as in the paper.
+// One work-item per W fragments; planes are padded (host/passes/planes.hpp).
+#pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/fragment_tiles.h"
+#include "kernels/shared/grid_lookup.h"
+#include "kernels/shared/owner_table.h"
+#include "kernels/shared/running_cone.h"
+#include "kernels/shared/shading_sphere.h"
+#include "kernels/shared/tile_grids.h"
+#include "kernels/shared/validity.h"
+
+/// On the body's own surface, directions of opposite sides average out between samples: only the opaque cone keeps the
+/// surface's own hemisphere below its plane.
+SHARED Cone cone_for(const Occluded o, truth own) {
+#ifdef PAPER_CONE
+  (void)own;
+  return opaque_cone(o);
+#else
+  Cone cone = spread_cone(o);
+  cone.aperture = PICK(own, o.share, cone.aperture);
+  cone.opacity = PICK(own, REAL(1.0), cone.opacity);
+  return cone;
+#endif
+}
+
+kernel void shade_grid_cone(global const float* position_x, global const float* position_y,
+                            global const float* position_z, global const float* normal_x, global const float* normal_y,
+                            global const float* normal_z, global const uint* owner, global const int* owner_group,
+                            uint owners, global const GridRecord* grids, uint grid_count, global const uchar* samples,
+                            global const uint* listed, global const uint* lists, uint capacity, uint row_length,
+                            uint items, global float* visibility, global uint* validity) {
+  const uint i = get_global_id(0);
+  if (i >= items) return;
+  const uint tile = tile_of_unit(i * W / UNIT, row_length);
+  const int all = listed[tile] == ALL_GRIDS;
+  const uint count = all ? grid_count : listed[tile];
+  const real x = LOAD(position_x, i), y = LOAD(position_y, i), z = LOAD(position_z, i);
+  const truth drawn =
+      ((LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
+  if (count == 0 || !ANY(drawn)) {
+    STORE(REAL(1.0), visibility, i);
+    return;
+  }
+  const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
+  const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
+  RunningCone running = no_cone();
+  truth border = (truth)(0);
+  for (uint j = 0; j < count; ++j) {
+    global const GridRecord* grid = grids + (all ? j : lists[tile * capacity + j]);
+    const GridPoint p = grid_point(grid, x, y, z);
+    const truth inside = p.inside & drawn;
+    if (!ANY(inside)) continue;
+    const truth own = (group == (whole)(grid->group)) & (group >= 0);
+    const Occluded o = to_world(grid, look_up_cone(grid, samples, p));
+    const RunningCone next = clip_cone(cone_for(o, own), a, b, c);
+    const truth some = inside & (next.cosine > REAL(1e-6));
+    RunningCone both = running;
+    JOIN(combine_, COMBINE)(&both, next);
+    running = pick_cone(some, both, running);
+    border |= p.border & drawn;
+  }
+  const real v = JOIN(visibility_, COMBINE)(running, a, b, c);
+  STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
+  if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
+}

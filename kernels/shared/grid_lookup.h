@@ -1,0 +1,111 @@
+// Trilinear look-up in 8-bit occlusion grids (sim/occlusion_grid.hpp), W fragments at a time. Each lane loads its corners
+// as short vectors of neighbouring bytes: two samples along x lie side by side, so four loads serve eight corners.
+#ifndef UNDERSTORY_GRID_LOOKUP_H
+#define UNDERSTORY_GRID_LOOKUP_H
+
+#include "kernels/shared/cone.h"
+#include "kernels/shared/grid_record.h"
+
+/// W fragments in one grid.
+typedef struct {
+  real x, y, z;   // in samples
+  truth inside;   // the box holds it; false for what is not a number
+  truth border;   // inside, but within 1/16 of the box's edges from a face, where occlusion has been faded
+} GridPoint;
+
+SHARED GridPoint grid_point(global const GridRecord* grid, real x, real y, real z) {
+  const global float* m = grid->to_grid;
+  GridPoint p;
+  p.x = fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), (real)(m[3]))));
+  p.y = fma(x, (real)(m[4]), fma(y, (real)(m[5]), fma(z, (real)(m[6]), (real)(m[7]))));
+  p.z = fma(x, (real)(m[8]), fma(y, (real)(m[9]), fma(z, (real)(m[10]), (real)(m[11]))));
+  const float a = (float)grid->width - 1.0f, b = (float)grid->height - 1.0f, c = (float)grid->depth - 1.0f;
+  // Distance from the nearest face along each axis.
+  const real dx = at_most(p.x, (real)(a)-p.x), dy = at_most(p.y, (real)(b)-p.y), dz = at_most(p.z, (real)(c)-p.z);
+  p.inside = (dx >= REAL(0.0)) & (dy >= REAL(0.0)) & (dz >= REAL(0.0));
+  p.border = p.inside & ((dx < (real)(0.0625f * a)) | (dy < (real)(0.0625f * b)) | (dz < (real)(0.0625f * c)));
+  return p;
+}
+
+/// The lower corner of each lane's cell, and where in it the lane is. Lanes outside get some cell of the grid.
+typedef struct {
+  uint sample[W];  // of the table
+  float x[W], y[W], z[W];
+} GridCells;
+
+SHARED real grid_cell(real at, uint size, private real* part) {
+  const real inside = at_most(at_least(at, REAL(0.0)), (real)((float)size - 1.0f));
+  const real cell = at_most(floor(inside), (real)((float)size - 2.0f));
+  *part = inside - cell;
+  return cell;
+}
+
+SHARED void grid_cells(global const GridRecord* grid, const GridPoint p, private GridCells* cells) {
+  real x, y, z;
+  const bits i = TO_BITS(grid_cell(p.x, grid->width, &x)), j = TO_BITS(grid_cell(p.y, grid->height, &y));
+  const bits k = TO_BITS(grid_cell(p.z, grid->depth, &z));
+  const bits sample = ((k * (bits)(grid->height) + j) * (bits)(grid->width) + i) + (bits)(grid->first);
+  STORE(sample, cells->sample, 0);
+  STORE(x, cells->x, 0);
+  STORE(y, cells->y, 0);
+  STORE(z, cells->z, 0);
+}
+
+/// Share and mean direction, in the body's frame; `samples`: four bytes each.
+SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+  GridCells cells;
+  grid_cells(grid, p, &cells);
+  const size_t row = 4 * (size_t)grid->width, slab = row * grid->height;
+  float share[W], x[W], y[W], z[W];
+  for (int lane = 0; lane < W; ++lane) {
+    global const uchar* corner = samples + 4 * (size_t)cells.sample[lane];
+    const float8 a = convert_float8(vload8(0, corner)), b = convert_float8(vload8(0, corner + row));
+    const float8 c = convert_float8(vload8(0, corner + slab)), d = convert_float8(vload8(0, corner + slab + row));
+    const float8 up = (float8)(cells.y[lane]);
+    const float8 low = fma(b - a, up, a), high = fma(d - c, up, c);
+    const float8 edge = fma(high - low, (float8)(cells.z[lane]), low);
+    const float4 mean = fma(edge.hi - edge.lo, (float4)(cells.x[lane]), edge.lo);
+    x[lane] = mean.x;
+    y[lane] = mean.y;
+    z[lane] = mean.z;
+    share[lane] = mean.w;
+  }
+  const real scale = REAL(1.9685039370078740e-3);  // 1/(4 127)
+  Occluded o;
+  o.share = LOAD(share, 0) * REAL(3.9215686274509804e-3);  // 1/255
+  o.x = (LOAD(x, 0) - REAL(128.0)) * scale;
+  o.y = (LOAD(y, 0) - REAL(128.0)) * scale;
+  o.z = (LOAD(z, 0) - REAL(128.0)) * scale;
+  return o;
+}
+
+/// Share of a scalar grid; `samples`: one byte each.
+SHARED real look_up_share(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+  GridCells cells;
+  grid_cells(grid, p, &cells);
+  const size_t row = grid->width, slab = row * grid->height;
+  float share[W];
+  for (int lane = 0; lane < W; ++lane) {
+    global const uchar* corner = samples + cells.sample[lane];
+    const float2 a = convert_float2(vload2(0, corner)), b = convert_float2(vload2(0, corner + row));
+    const float2 c = convert_float2(vload2(0, corner + slab)), d = convert_float2(vload2(0, corner + slab + row));
+    const float2 up = (float2)(cells.y[lane]);
+    const float2 low = fma(b - a, up, a), high = fma(d - c, up, c);
+    const float2 edge = fma(high - low, (float2)(cells.z[lane]), low);
+    share[lane] = fma(edge.y - edge.x, cells.x[lane], edge.x);
+  }
+  return LOAD(share, 0) * REAL(3.9215686274509804e-3);
+}
+
+/// The mean direction in world axes.
+SHARED Occluded to_world(global const GridRecord* grid, const Occluded o) {
+  const global float* m = grid->axes;
+  Occluded w;
+  w.share = o.share;
+  w.x = fma(o.x, (real)(m[0]), fma(o.y, (real)(m[1]), o.z * (real)(m[2])));
+  w.y = fma(o.x, (real)(m[4]), fma(o.y, (real)(m[5]), o.z * (real)(m[6])));
+  w.z = fma(o.x, (real)(m[8]), fma(o.y, (real)(m[9]), o.z * (real)(m[10])));
+  return w;
+}
+
+#endif

@@ -1,0 +1,29 @@
+// A rigid body's occlusion grid at time t: where it is, which samples are its own, and whom it belongs to.
+#ifndef UNDERSTORY_GRID_RECORD_H
+#define UNDERSTORY_GRID_RECORD_H
+
+#ifdef __OPENCL_C_VERSION__
+typedef int grid_int;
+typedef uint grid_uint;
+#else
+#include <cstdint>
+namespace understory {
+typedef std::int32_t grid_int;
+typedef std::uint32_t grid_uint;
+#endif
+
+typedef struct {
+  float to_grid[12];                // 3x4, row-major: camera-relative metres to samples, [0, size - 1] within the box
+  float axes[12];                   // 3x3, rows padded to 4: directions of the body's frame to world axes, a rotation
+  grid_uint first;                  // its first sample in the table
+  grid_uint width, height, depth;   // samples per axis, at least 2
+  grid_int group;                   // Owner::group of the part: its fragments are shaded by what rises above their plane
+  float border;                     // M of the border's rescale (sim/occlusion_grid.hpp)
+  float padding_[2];
+} GridRecord;                       // 128 bytes
+
+#ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(GridRecord) == 128);
+}  // namespace understory
+#endif
+#endif
