@@ -31,6 +31,8 @@ struct Frame {
   Plane height_above_root;                // blades: m; empty when no planned pass reads it
   std::map<std::string, Plane> terms;     // one per visibility pass, by method name
   Plane visibility;                       // V_c, [0, 1]; background: 1
+  Plane halfwidth;                        // of truth: of the 95 % interval about `visibility`; empty otherwise
+  std::vector<std::uint32_t> rays;        // of truth: rays per pixel, 0 where there is no surface; empty otherwise
   std::vector<Owner> owners;              // the owner table
   glm::dmat4 world_to_camera{1};          // column vectors; camera looks along -z, y up (OpenGL and Blender)
   double vertical_fov = 0;                // radians; 0: orthographic or unknown

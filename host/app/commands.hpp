@@ -20,6 +20,8 @@ inline constexpr int exit_code_of_signal(int signal) { return 128 + signal; }
 void add_run(CLI::App& program, Command& chosen);
 void add_view(CLI::App& program, Command& chosen);
 void add_occlude(CLI::App& program, Command& chosen);
+void add_truth(CLI::App& program, Command& chosen);
+void add_compare(CLI::App& program, Command& chosen);
 void add_validate(CLI::App& program, Command& chosen);
 void add_schema(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);

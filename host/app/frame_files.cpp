@@ -24,7 +24,7 @@ FrameFiles::FrameFiles(const std::filesystem::path& folder, const RunRecord& rec
     : folder_(folder),
       dumps_(record.dumps),
       supersample_(record.supersample),
-      attributes_{record.seed, methods, record.scene_sha256, ""} {}
+      attributes_{record.seed, methods, record.scene_sha256, "", ""} {}
 
 bool FrameFiles::dumps(const char* format) const {
   return std::find(dumps_.begin(), dumps_.end(), format) != dumps_.end();

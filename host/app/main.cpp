@@ -70,6 +70,7 @@ int main(int argument_count, char** arguments) {
   add_run(program, chosen);
   add_view(program, chosen);
   add_occlude(program, chosen);
+  add_truth(program, chosen);
   add_validate(program, chosen);
   add_schema(program, chosen);
   add_bench(program, chosen);

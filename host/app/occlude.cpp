@@ -5,19 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "host/app/checksum.hpp"
 #include "host/app/commands.hpp"
+#include "host/app/gbuffer_flags.hpp"
 #include "host/app/options.hpp"
 #include "host/frame/runner.hpp"
 #include "sim/error.hpp"
 #include "sim/files/scene_file.hpp"
-#include "viz/exr/channel_roles.hpp"
 #include "viz/exr/frame_exr.hpp"
 #include "viz/exr/gbuffer.hpp"
 
@@ -27,32 +25,11 @@ namespace {
 struct OccludeOptions {
   SceneOptions scene;
   DeviceOptions device;
-  std::string input, output, channels, owner_channel, space;
-  std::vector<double> camera;
+  GbufferFlags gbuffer;
+  std::string input, output, owner_channel;
   std::optional<double> time;
   bool json = false;
 };
-
-GbufferOptions gbuffer_options(const OccludeOptions& options) {
-  GbufferOptions gbuffer;
-  gbuffer.channels = parse_channel_choices(options.channels);
-  if (!options.owner_channel.empty()) gbuffer.channels["owner"] = options.owner_channel;
-  if (options.space == "world") gbuffer.space = GbufferSpace::world;
-  if (options.space == "camera") gbuffer.space = GbufferSpace::camera;
-  if (const auto& c = options.camera; !c.empty()) {
-    Camera camera;
-    camera.position = {c[0], c[1], c[2]};
-    camera.target = {c[3], c[4], c[5]};
-    camera.vertical_fov = c[6] * glm::pi<double>() / 180;
-    const bool finite = std::all_of(c.begin(), c.end(), [](double number) { return std::isfinite(number); });
-    if (!finite || camera.position == camera.target || c[6] <= 0 || c[6] >= 180)
-      throw Error(ErrorKind::usage, fmt::format("--camera {}: allowed are finite numbers, a target other than the "
-                                                "position, and a field of view between 0 and 180 degrees",
-                                                fmt::join(c, " ")));
-    gbuffer.camera = camera;
-  }
-  return gbuffer;
-}
 
 bool same_owners(const std::vector<Owner>& file, const std::vector<Owner>& world) {
   return std::equal(file.begin(), file.end(), world.begin(), world.end(), [](const Owner& a, const Owner& b) {
@@ -106,7 +83,9 @@ void print_result(const OccludeOptions& options, const Gbuffer& gbuffer) {
 
 int occlude(const OccludeOptions& options) {
   use_threads(options.device);
-  Gbuffer gbuffer = read_gbuffer(options.input, gbuffer_options(options));
+  GbufferOptions reading = gbuffer_options(options.gbuffer);
+  if (!options.owner_channel.empty()) reading.channels["owner"] = options.owner_channel;
+  Gbuffer gbuffer = read_gbuffer(options.input, reading);
   Frame& frame = gbuffer.frame;
   const double time = options.time.value_or(frame.time);
   ExrAttributes attributes;
@@ -152,15 +131,8 @@ void add_occlude(CLI::App& program, Command& chosen) {
   command->add_option("-o,--output", options->output, "EXR to write")->required();
   add_scene_options(*command, options->scene, true);
   command->add_option("--time", options->time, "Time of the scene, s (default: what the file says, else 0)");
-  command->add_option("--channels", options->channels, "Which layer holds what, when names do not tell")
-      ->type_name("ROLE=LAYER,...");
+  add_gbuffer_options(*command, options->gbuffer);
   command->add_option("--owner-channel", options->owner_channel, "Channel of row numbers in the scene's owner table");
-  command->add_option("--space", options->space, "Space of the positions, when the header does not tell")
-      ->check(CLI::IsMember({"world", "camera"}));
-  command->add_option("--camera", options->camera, "Position, target and vertical field of view in degrees")
-      ->delimiter(',')
-      ->expected(7)
-      ->type_name("X,Y,Z,X,Y,Z,FOV");
   add_device_options(*command, options->device);
   command->add_flag("--json", options->json, "Print what was taken and assumed as a JSON object");
   command->footer(

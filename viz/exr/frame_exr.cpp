@@ -78,6 +78,8 @@ void write_frame_exr(const std::filesystem::path& path, const Frame& frame, cons
   if (!frame.height_above_root.empty()) image.floats["height"] = frame.height_above_root;
   image.integers["owner"] = frame.owner;
   image.integers["validity"] = frame.validity;
+  if (!frame.halfwidth.empty()) image.floats["halfwidth"] = frame.halfwidth;
+  if (!frame.rays.empty()) image.integers["rays"] = frame.rays;
 
   auto& [texts, numbers, vectors, matrices] = image.attributes;
   texts["understory:version"] = UNDERSTORY_VERSION;
@@ -87,6 +89,7 @@ void write_frame_exr(const std::filesystem::path& path, const Frame& frame, cons
   texts["understory:seed"] = std::to_string(attributes.seed);  // 64 bits; header integers have 32
   if (!attributes.scene_sha256.empty()) texts["understory:scene_sha256"] = attributes.scene_sha256;
   if (!attributes.channels_in.empty()) texts["understory:channels_in"] = attributes.channels_in;
+  if (!attributes.truth.empty()) texts["understory:truth"] = attributes.truth;
   numbers["understory:frame"] = frame.index;
   numbers["understory:time_s"] = frame.time;
   numbers["understory:vertical_fov_rad"] = frame.vertical_fov;
@@ -126,6 +129,9 @@ Frame read_frame_exr(const std::filesystem::path& path) {
   frame.validity = need(image.integers, "validity", path);
   if (const auto height = image.floats.find("height"); height != image.floats.end())
     frame.height_above_root = height->second;
+  if (const auto halfwidth = image.floats.find("halfwidth"); halfwidth != image.floats.end())
+    frame.halfwidth = halfwidth->second;
+  if (const auto rays = image.integers.find("rays"); rays != image.integers.end()) frame.rays = rays->second;
   for (auto& [name, plane] : image.floats)
     if (name.size() > 2 && name.ends_with(term_suffix) && name != "P.Y" && name != "N.Y")
       frame.terms[name.substr(0, name.size() - 2)] = std::move(plane);

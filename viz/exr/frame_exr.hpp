@@ -1,5 +1,6 @@
 // Frames as EXR files: the product's own layout (DESIGN.md, "What machines read"), written and read without loss.
-// Channels: Y (visibility), <method>.Y per term, P.X/Y/Z, N.X/Y/Z, Z, A, owner, validity, height. No dates inside.
+// Channels: Y (visibility), <method>.Y per term, P.X/Y/Z, N.X/Y/Z, Z, A, owner, validity, height; of truth also
+// halfwidth and rays. No dates inside.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@ struct ExrAttributes {
   Methods methods;
   std::string scene_sha256;  // of the resolved scene; empty: not stored
   std::string channels_in;   // which channels of a foreign file were taken; empty: not stored
+  std::string truth;         // how truth was traced, JSON; empty: not stored
 };
 
 /// Temporary name, sync, rename. The same frame gives the same bytes. Throws Error(input_output).
