@@ -4,13 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench/accuracy.hpp"
 #include "bench/report.hpp"
 #include "host/app/bench_json.hpp"
 #include "host/app/commands.hpp"
 #include "host/app/options.hpp"
+#include "sim/error.hpp"
+#include "sim/files/atomic_file.hpp"
 
 namespace understory {
 namespace {
@@ -19,7 +23,9 @@ struct BenchCommand {
   BenchOptions bench;
   DeviceOptions device;
   bool json = false;
-  std::string compare;  // file of an earlier report; empty: none
+  std::string compare;   // file of an earlier report; empty: none
+  std::string accuracy;  // Markdown file to write; empty: times are measured, not errors
+  AccuracyOptions accuracy_options;
 };
 
 /// "12.3 M", for rates.
@@ -91,6 +97,28 @@ int bench(BenchCommand& command) {
   return wrong > 0 ? 1 : 0;
 }
 
+/// Errors instead of times; each row is told as soon as its scene is done.
+int bench_accuracy(BenchCommand& command) {
+  use_threads(command.device);
+  AccuracyOptions& options = command.accuracy_options;
+  options.device = command.device.device;
+  options.filter = command.bench.filter;
+  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
+  const char* data = std::getenv("UNDERSTORY_DATA");
+  if (!data || !*data) throw Error(ErrorKind::usage, "--accuracy needs the data folder: set UNDERSTORY_DATA to it");
+  options.data = data;
+  const AccuracyReport report = measure_accuracy(options);
+  if (command.accuracy != "-") write_file_atomically(command.accuracy, accuracy_markdown(report));
+  fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}\n", "scene", "setting", "surface", "method", "pixels",
+             "RMSE", "bias", "log", "noise", "constant");
+  for (const AccuracyRow& row : report.rows)
+    fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9.4f}{:>9.4f}{:>9.3f}{:>9.4f}{:>9.4f}\n", row.scene, row.setting, row.surface,
+               row.method, row.errors.pixels, row.errors.rmse, row.errors.bias, row.errors.log_mae,
+               row.errors.truth_noise, row.errors.best_constant);
+  for (const std::string& name : report.unknown) spdlog::warn("there is no method '{}' in this build", name);
+  return 0;
+}
+
 }  // namespace
 
 void add_bench(CLI::App& program, Command& chosen) {
@@ -99,7 +127,8 @@ void add_bench(CLI::App& program, Command& chosen) {
   BenchOptions& options = command->bench;
   app->add_option("SCENE", options.scenes, "Scenes whose frames are timed; without one, kernels only")
       ->check(CLI::ExistingFile);
-  app->add_option("--filter", options.filter, "Only results whose name contains this (kernel/sphere-cap, frame/)");
+  app->add_option("--filter", options.filter,
+                  "Only results whose name contains this (kernel/sphere-cap, frame/; of errors, birch/dome/)");
   app->add_option("--fragments", options.fragments, "Fragments of the kernel benchmarks")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28))
       ->capture_default_str();
@@ -111,12 +140,27 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   app->add_flag("--json", command->json, "Print one JSON object");
   app->add_option("--compare", command->compare, "Report of an earlier --json to set beside this one");
+  CLI::Option* accuracy = app->add_option("--accuracy", command->accuracy,
+                                          "Measure errors against traced truth instead of times, into this Markdown "
+                                          "file (-: only print); meshes from UNDERSTORY_DATA");
+  app->add_option("--pictures", command->accuracy_options.pictures, "Folder for pictures truth | method | difference")
+      ->needs(accuracy);
+  app->add_option("--rays", command->accuracy_options.rays, "Rays per fragment of the truth")
+      ->check(CLI::Range(16, 1 << 24))
+      ->needs(accuracy)
+      ->capture_default_str();
+  app->add_option("--per-side", command->accuracy_options.fragments, "Fragments judged per side and surface")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
+      ->needs(accuracy)
+      ->capture_default_str();
   add_device_options(*app, command->device);
   app->footer(
       "low and high enclose the median with 95 % confidence. cold: first run, compiling included. planes: speed over\n"
       "that of a kernel that only reads as many planes and writes one; roof: over the nearest ceiling. Results are\n"
       "verified first: a wrong one is named, not timed, and makes the exit code 1.");
-  app->callback([command, &chosen] { chosen = [command] { return bench(*command); }; });
+  app->callback([command, &chosen] {
+    chosen = [command] { return command->accuracy.empty() ? bench(*command) : bench_accuracy(*command); };
+  });
 }
 
 }  // namespace understory

@@ -12,8 +12,9 @@ namespace understory {
 /// Returns the exit code; throws Error.
 using Command = std::function<int()>;
 
-/// Exit code beside those of ErrorKind.
+/// Exit codes beside those of ErrorKind.
 inline constexpr int some_frames_failed = 6;
+inline constexpr int comparison_over_threshold = 7;
 /// Exit code after a signal: 130 for SIGINT, 143 for SIGTERM.
 inline constexpr int exit_code_of_signal(int signal) { return 128 + signal; }
 

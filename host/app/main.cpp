@@ -23,7 +23,7 @@ constexpr const char* footer = R"(First steps:
 
 Standard output carries results, standard error the log and progress.
 Exit codes: 0 done, 1 unexpected failure, 2 usage, 3 invalid input, 4 no usable device, 5 input/output,
-6 some frames failed, 130 or 143 stopped by a signal with the current frame finished.)";
+6 some frames failed, 7 comparison over its threshold, 130 or 143 stopped by a signal with the current frame finished.)";
 
 /// Log and messages go to standard error; colours only on a terminal and without NO_COLOR (https://no-color.org).
 void set_up_log() {
@@ -71,6 +71,7 @@ int main(int argument_count, char** arguments) {
   add_view(program, chosen);
   add_occlude(program, chosen);
   add_truth(program, chosen);
+  add_compare(program, chosen);
   add_validate(program, chosen);
   add_schema(program, chosen);
   add_bench(program, chosen);

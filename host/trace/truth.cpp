@@ -21,6 +21,9 @@ constexpr double student_t_7 = 2.364624;  // 97.5 % quantile at truth_replicates
 constexpr double normal_95 = 1.959964;    // 97.5 % quantile of the normal distribution
 static_assert(truth_replicates == 8);
 
+/// Upper end of Wilson's 95 % interval for a share of which `rays` rays saw nothing.
+double unseen_share(double rays) { return normal_95 * normal_95 / (rays + normal_95 * normal_95); }
+
 bool is_usable(glm::vec3 position, glm::vec3 normal) {
   const float sum = position.x + position.y + position.z + normal.x + normal.y + normal.z;
   return std::isfinite(sum) && std::abs(glm::dot(normal, normal) - 1) < 1e-2f;
@@ -99,14 +102,23 @@ float surface_offset(glm::vec3 position, glm::vec3 eye) {
   return std::max(0x1p-18f * (glm::length(position) + glm::distance(position, eye)), 2e-6f);
 }
 
+// The scatter of the replicates gives a Student interval. It is 0 when all agree, as they do when few rays saw nothing
+// or missed nothing; Wilson's score interval (1927) at 0 of n bounds what n rays may have overlooked, z^2/(n + z^2).
+// Both errors are independent, so their squares add.
 float interval_halfwidth(std::span<const double> replicate_means, int rays) {
   const auto replicates = static_cast<double>(replicate_means.size());
   double mean = 0, squares = 0;
   for (const double m : replicate_means) mean += m / replicates;
   for (const double m : replicate_means) squares += (m - mean) * (m - mean);
   const double scatter = student_t_7 * std::sqrt(squares / (replicates * (replicates - 1)));
-  const double unseen = normal_95 * normal_95 / (rays + normal_95 * normal_95);
+  const double unseen = unseen_share(rays);
   return static_cast<float>(std::hypot(scatter, unseen));
+}
+
+double truth_variance(float halfwidth, std::uint32_t rays) {
+  if (rays == 0) return 0;
+  const double unseen = unseen_share(rays);
+  return std::max(double(halfwidth) * halfwidth - unseen * unseen, 0.0) / (student_t_7 * student_t_7);
 }
 
 Truth trace_truth(const Tracer& tracer, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,

@@ -51,6 +51,9 @@ Truth trace_truth(const Tracer& tracer, std::span<const glm::vec3> positions, st
 /// 64 times the rounding error of such a position, and at least 2 micrometres. 0.1 mm for a tree seen from 20 m.
 float surface_offset(glm::vec3 position, glm::vec3 eye);
 
+/// Variance of a value that trace_truth gave, from its half-width: unbiased over many of them. 0 without rays.
+double truth_variance(float halfwidth, std::uint32_t rays);
+
 /// Half-width of the 95 % interval from the means of the replicates, of `rays` rays in all. See truth.cpp.
 float interval_halfwidth(std::span<const double> replicate_means, int rays);
 

@@ -1,0 +1,46 @@
+// How far every method is from the traced truth, on real plants, random crowns, grass and a stand of trees: the table
+// bench/accuracy.md. A new method joins by its name in accuracy_scenes.cpp.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/error_statistics.hpp"
+
+namespace understory {
+
+struct AccuracyOptions {
+  std::string device;                                // as --device
+  std::filesystem::path data;                        // folder of the meshes (data/MANIFEST.md)
+  std::string filter;                                // only rows whose "scene/setting/method" contains it; empty: all
+  std::filesystem::path pictures;                    // folder for truth | method | difference; empty: none
+  int rays = 1024;                                   // of the truth, per fragment
+  std::size_t fragments = 1000;                      // per side and surface, taken at random
+  std::function<void(const std::string&)> progress;  // told the name of what comes next; may be empty
+};
+
+/// One method on one kind of surface of one scene, all four sides together.
+struct AccuracyRow {
+  std::string scene;    // black oak, ...
+  std::string setting;  // sphere: alone under `sky: sphere`; dome: on ground; gust: on ground in a wind of 8 m/s; ...
+  std::string surface;  // plant, ground, blades
+  std::string method;   // "crown-field", or "tree + crowns" where both are chosen
+  ErrorStatistics errors;
+};
+
+struct AccuracyReport {
+  std::string device;
+  int rays = 0;
+  std::vector<AccuracyRow> rows;
+  std::vector<std::string> unknown;  // methods that this build does not know
+};
+
+/// Throws Error(invalid_input) when the data folder lacks a mesh.
+AccuracyReport measure_accuracy(const AccuracyOptions& options);
+
+/// The report as Markdown: a table of RMSE per setting and surface, one of bias and log error.
+std::string accuracy_markdown(const AccuracyReport& report);
+
+}  // namespace understory

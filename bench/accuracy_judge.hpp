@@ -1,0 +1,41 @@
+// One scene seen from four sides, its fragments' truth, and any method's error on them.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/accuracy.hpp"
+#include "bench/accuracy_scenes.hpp"
+#include "host/frame/runner.hpp"
+#include "host/trace/truth.hpp"
+
+namespace understory {
+
+class AccuracyJudge {
+ public:
+  /// Renders the four sides, picks fragments at random and traces them. The device must outlive the judge.
+  AccuracyJudge(Device& device, const AccuracySubject& subject, const AccuracyOptions& options);
+
+  /// By surface. Empty: this build knows no such method. Throws Error for anything else that goes wrong.
+  std::map<std::string, ErrorStatistics> errors(const Methods& methods);
+  /// Writes truth | method | difference of the first side into `folder`, named after the scene and `method_name`.
+  void write_pictures(const Methods& methods, const std::string& method_name, const std::filesystem::path& folder);
+
+ private:
+  struct Side {
+    Camera camera;
+    double time = 0;
+    std::map<std::string, std::vector<std::size_t>> pixels;  // by surface, chosen at random
+  };
+  Frame render(const Side& side);
+  void trace(Side& side, const AccuracyOptions& options);
+
+  std::string name_;  // of the subject, for files
+  World world_;
+  FrameRunner runner_;
+  std::vector<Side> sides_;
+  std::map<std::string, Truth> truth_;  // by surface, all sides after one another
+  Frame first_truth_;                   // the whole first side, for pictures; empty when none are wanted
+};
+
+}  // namespace understory
