@@ -32,13 +32,24 @@ class Scratch {
 
 void keep_filtered(AccuracySubject& subject, const std::string& filter) {
   const std::string place = subject.name + "/" + subject.setting + "/";
-  std::erase_if(subject.methods,
-                [&](const AccuracyMethod& method) { return (place + method.name).find(filter) == std::string::npos; });
+  const auto is_out = [&](const std::string& name) { return (place + name).find(filter) == std::string::npos; };
+  std::erase_if(subject.methods, [&](const AccuracyMethod& method) { return is_out(method.name); });
+  subject.truth_itself = subject.truth_itself && !is_out("truth");
+}
+
+void trace_canopies(const AccuracyOptions& options, AccuracyReport& report) {
+  for (const double leaf_area_index : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+    const std::string name = "canopy/LAI " + std::to_string(leaf_area_index).substr(0, 3) + "/truth";
+    if (name.find(options.filter) == std::string::npos) continue;
+    if (options.progress) options.progress(name);
+    report.canopies.push_back(trace_canopy(leaf_area_index, 8, options.rays));
+  }
 }
 
 void judge_subject(Device& device, const AccuracySubject& subject, const AccuracyOptions& options,
                    std::set<std::string>& unknown, AccuracyReport& report) {
   AccuracyJudge judge(device, subject, options);
+  if (subject.truth_itself) report.truth.push_back(judge.truth_itself());
   for (const AccuracyMethod& method : subject.methods) {
     if (unknown.contains(method.name)) continue;
     const auto errors = judge.errors(method.methods);
@@ -56,7 +67,8 @@ AccuracyReport measure_accuracy(const AccuracyOptions& options) {
   const Scratch scratch;
   std::vector<AccuracySubject> subjects = accuracy_subjects(options.data, scratch.path());
   for (AccuracySubject& subject : subjects) keep_filtered(subject, options.filter);
-  std::erase_if(subjects, [](const AccuracySubject& subject) { return subject.methods.empty(); });
+  std::erase_if(subjects,
+                [](const AccuracySubject& subject) { return subject.methods.empty() && !subject.truth_itself; });
   Device device(options.device);
   AccuracyReport report;
   report.device = device.info().name;
@@ -66,6 +78,7 @@ AccuracyReport measure_accuracy(const AccuracyOptions& options) {
     if (options.progress) options.progress(subject.name + "/" + subject.setting);
     judge_subject(device, subject, options, unknown, report);
   }
+  trace_canopies(options, report);
   report.unknown.assign(unknown.begin(), unknown.end());
   return report;
 }

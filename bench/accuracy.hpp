@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/canopy_truth.hpp"
 #include "bench/error_statistics.hpp"
 
 namespace understory {
@@ -30,10 +31,23 @@ struct AccuracyRow {
   ErrorStatistics errors;
 };
 
+/// The truth itself: how fast it is, and whether its 95 % intervals hold what 16,384 rays find.
+struct TruthRow {
+  std::string scene, setting;
+  double rays_per_s = 0;         // traced, all cores
+  std::size_t fragments = 0;     // judged
+  int rays = 0;                  // per fragment
+  double inside = 0;             // share of the intervals that hold
+  double tenth_inside[10] = {};  // by tenth of V
+  std::size_t tenth_fragments[10] = {};
+};
+
 struct AccuracyReport {
   std::string device;
   int rays = 0;
   std::vector<AccuracyRow> rows;
+  std::vector<TruthRow> truth;
+  std::vector<CanopyTruth> canopies;
   std::vector<std::string> unknown;  // methods that this build does not know
 };
 

@@ -1,6 +1,7 @@
 #include "bench/accuracy_judge.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int image_size = 320;    // pixels, both ways
 constexpr int picture_rays = 128;  // a pixel
+constexpr int reference_rays = 16384;
 constexpr double field_of_view = 0.6;
 
 /// The judge's own choice while it renders for positions only: no pass but the geometry and, for grass, eq. 9.
@@ -50,7 +52,7 @@ Bounds bounds_of(const World& world) {
 Camera camera_at(const Bounds& bounds, int side, double elevation) {
   const glm::dvec3 centre = 0.5 * (bounds.low + bounds.high);
   const double radius = 0.5 * glm::length(bounds.high - bounds.low), azimuth = (side + 0.1) * glm::half_pi<double>();
-  const double distance = 0.9 * radius / std::tan(0.5 * field_of_view);
+  const double distance = radius / std::tan(0.5 * field_of_view);
   Camera camera;
   camera.target = centre;
   camera.position = centre + distance * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
@@ -79,16 +81,21 @@ void thin_out(std::vector<std::size_t>& pixels, std::size_t count) {
   if (pixels.size() > count) pixels.resize(count);
 }
 
+template <typename T>
+void append(const std::vector<T>& part, std::vector<T>& all) {
+  all.insert(all.end(), part.begin(), part.end());
+}
+
 void append(const Truth& part, Truth& all) {
-  all.visibility.insert(all.visibility.end(), part.visibility.begin(), part.visibility.end());
-  all.halfwidth.insert(all.halfwidth.end(), part.halfwidth.begin(), part.halfwidth.end());
-  all.rays.insert(all.rays.end(), part.rays.begin(), part.rays.end());
+  append(part.visibility, all.visibility);
+  append(part.halfwidth, all.halfwidth);
+  append(part.rays, all.rays);
 }
 
 }  // namespace
 
 AccuracyJudge::AccuracyJudge(Device& device, const AccuracySubject& subject, const AccuracyOptions& options)
-    : name_(subject.name + " " + subject.setting), world_(world_of(subject)), runner_(device, world_) {
+    : name_(subject.name), setting_(subject.setting), world_(world_of(subject)), runner_(device, world_) {
   const Bounds bounds = bounds_of(world_);
   for (int side = 0; side < 4; ++side) {
     Side& seen = sides_.emplace_back();
@@ -116,22 +123,24 @@ Frame AccuracyJudge::render(const Side& side) {
 
 void AccuracyJudge::trace(Side& side, const AccuracyOptions& options) {
   Frame frame = render(side);
-  const Tracer tracer = tracer_of(runner_.posed_geometry());
+  tracer_.emplace(tracer_of(runner_.posed_geometry()));
   TruthOptions truth_options;
   truth_options.sky = world_.scene.sky;
   truth_options.eye = glm::vec3(side.camera.position);
   for (const auto& [surface, pixels] : side.pixels) {
-    std::vector<glm::vec3> positions, normals;
+    Points points;
     for (const std::size_t i : pixels) {
-      positions.emplace_back(frame.position[0][i], frame.position[1][i], frame.position[2][i]);
-      normals.emplace_back(frame.normal[0][i], frame.normal[1][i], frame.normal[2][i]);
+      points.positions.emplace_back(frame.position[0][i], frame.position[1][i], frame.position[2][i]);
+      points.normals.emplace_back(frame.normal[0][i], frame.normal[1][i], frame.normal[2][i]);
     }
     truth_options.rays = options.rays;
-    append(trace_truth(tracer, positions, normals, truth_options), truth_[surface]);
+    append(trace_truth(*tracer_, points.positions, points.normals, truth_options), truth_[surface]);
+    append(points.positions, points_[surface].positions);
+    append(points.normals, points_[surface].normals);
   }
   if (options.pictures.empty() || &side != &sides_.front()) return;
   truth_options.rays = picture_rays;
-  trace_frame(tracer, truth_options, frame);
+  trace_frame(*tracer_, truth_options, frame);
   first_truth_ = std::move(frame);
 }
 
@@ -157,10 +166,41 @@ std::map<std::string, ErrorStatistics> AccuracyJudge::errors(const Methods& meth
   return result;
 }
 
+TruthRow AccuracyJudge::truth_itself() const {
+  const Points& points = points_.at("plant");
+  TruthOptions options;
+  options.sky = world_.scene.sky;
+  options.eye = glm::vec3(sides_.front().camera.position);
+  options.seed = 2;
+  const auto started = std::chrono::steady_clock::now();
+  const Truth truth = trace_truth(*tracer_, points.positions, points.normals, options);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  TruthRow row;
+  row.scene = name_;
+  row.setting = setting_;
+  row.fragments = truth.visibility.size();
+  row.rays = options.rays;
+  row.rays_per_s = static_cast<double>(row.fragments) * row.rays / elapsed.count();
+  options.rays = reference_rays;
+  options.seed = 3;
+  const Truth exact = trace_truth(*tracer_, points.positions, points.normals, options);
+  for (std::size_t i = 0; i < row.fragments; ++i) {
+    const bool inside = std::abs(truth.visibility[i] - exact.visibility[i]) <= truth.halfwidth[i];
+    const int tenth = std::min(9, static_cast<int>(10 * exact.visibility[i]));
+    row.inside += inside;
+    row.tenth_inside[tenth] += inside;
+    ++row.tenth_fragments[tenth];
+  }
+  row.inside /= static_cast<double>(row.fragments);
+  for (int tenth = 0; tenth < 10; ++tenth)
+    if (row.tenth_fragments[tenth] > 0) row.tenth_inside[tenth] /= static_cast<double>(row.tenth_fragments[tenth]);
+  return row;
+}
+
 void AccuracyJudge::write_pictures(const Methods& methods, const std::string& method_name,
                                    const std::filesystem::path& folder) {
   runner_.choose(methods);
-  write_accuracy_picture(folder, name_ + " " + method_name, first_truth_, render(sides_.front()));
+  write_accuracy_picture(folder, name_ + " " + setting_ + " " + method_name, first_truth_, render(sides_.front()));
 }
 
 }  // namespace understory

@@ -1,6 +1,7 @@
 // One scene seen from four sides, its fragments' truth, and any method's error on them.
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class AccuracyJudge {
 
   /// By surface. Empty: this build knows no such method. Throws Error for anything else that goes wrong.
   std::map<std::string, ErrorStatistics> errors(const Methods& methods);
+  /// Speed and intervals of the truth on the subject's plant fragments, at 256 rays.
+  TruthRow truth_itself() const;
   /// Writes truth | method | difference of the first side into `folder`, named after the scene and `method_name`.
   void write_pictures(const Methods& methods, const std::string& method_name, const std::filesystem::path& folder);
 
@@ -30,12 +33,18 @@ class AccuracyJudge {
   Frame render(const Side& side);
   void trace(Side& side, const AccuracyOptions& options);
 
-  std::string name_;  // of the subject, for files
+  struct Points {
+    std::vector<glm::vec3> positions, normals;
+  };
+
+  std::string name_, setting_;  // of the subject
   World world_;
   FrameRunner runner_;
   std::vector<Side> sides_;
-  std::map<std::string, Truth> truth_;  // by surface, all sides after one another
-  Frame first_truth_;                   // the whole first side, for pictures; empty when none are wanted
+  std::map<std::string, Points> points_;  // by surface, all sides after one another
+  std::map<std::string, Truth> truth_;    // likewise
+  std::optional<Tracer> tracer_;          // of the last side
+  Frame first_truth_;                     // the whole first side, for pictures; empty when none are wanted
 };
 
 }  // namespace understory

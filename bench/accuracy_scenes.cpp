@@ -9,8 +9,8 @@ namespace understory {
 namespace {
 
 constexpr double gust_speed = 8;  // m/s
-constexpr const char* tree_methods[] = {"reeves-blau",         "sphere-cap",  "ellipsoid-cap", "shells-cap",
-                                        "crown-transmittance", "crown-field", "crown-baked"};
+constexpr const char* tree_methods[] = {"reeves-blau",       "sphere-cap",          "ellipsoid-cap", "shells-cap",
+                                        "shells-cap-levels", "crown-transmittance", "crown-field",   "crown-baked"};
 constexpr const char* grass_methods[] = {"grass-height", "grass-transmittance"};
 constexpr const char* crowns_methods[] = {"none", "solid-angle-cosine", "crown-transmittance", "crown-shells"};
 
@@ -93,6 +93,7 @@ void add_plants(const std::filesystem::path& data, std::vector<AccuracySubject>&
       plant(subject.scene, mesh.name, {0, 0}, 0);
       subject.methods = each_tree_method("solid-angle-cosine");
       subject.ground = subject.setting != "sphere";
+      subject.truth_itself = subject.name == "black oak" && subject.setting != "gust";
       if (subject.ground) put_on_ground(subject.scene, 60);
       if (subject.setting == "gust") {
         subject.scene.wind.speed = gust_speed;

@@ -18,10 +18,11 @@ struct AccuracySubject {
   std::string name, setting;  // as in AccuracyRow
   Scene scene;                // camera and image size are set by the judge
   std::vector<AccuracyMethod> methods;
-  bool ground = false;     // judge the ground too
-  double first_time = 0;   // s, of the first of the four sides
-  double time_step = 0;    // s, between the sides: in the wind each is seen at another moment
-  double elevation = 0.2;  // radians above the horizon from which the sides are seen
+  bool ground = false;        // judge the ground too
+  bool truth_itself = false;  // judge the truth's speed and intervals
+  double first_time = 0;      // s, of the first of the four sides
+  double time_step = 0;       // s, between the sides: in the wind each is seen at another moment
+  double elevation = 0.2;     // radians above the horizon from which the sides are seen
 };
 
 /// All subjects in the order of the table. Meshes are looked for in `data`; the random crowns are written to `scratch`.

@@ -115,6 +115,15 @@ int bench_accuracy(BenchCommand& command) {
     fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9.4f}{:>9.4f}{:>9.3f}{:>9.4f}{:>9.4f}\n", row.scene, row.setting, row.surface,
                row.method, row.errors.pixels, row.errors.rmse, row.errors.bias, row.errors.log_mae,
                row.errors.truth_noise, row.errors.best_constant);
+  for (const TruthRow& row : report.truth) {
+    fmt::print("{:28}{:8}truth: {:.2f} million rays/s, intervals hold {:.3f} of {}; by tenth", row.scene, row.setting,
+               row.rays_per_s * 1e-6, row.inside, row.fragments);
+    for (int tenth = 0; tenth < 10; ++tenth) fmt::print(" {:.3f}", row.tenth_inside[tenth]);
+    fmt::print("\n");
+  }
+  for (const CanopyTruth& canopy : report.canopies)
+    fmt::print("canopy LAI {:<3} {:.5f} +- {:.5f}, closed form {:.5f}\n", canopy.leaf_area_index, canopy.traced,
+               canopy.standard_error, canopy.closed_form);
   for (const std::string& name : report.unknown) spdlog::warn("there is no method '{}' in this build", name);
   return 0;
 }
