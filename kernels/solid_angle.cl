@@ -15,8 +15,8 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
                              global const float* position_z, global const float* normal_x, global const float* normal_y,
                              global const float* normal_z, global const uint* owner, global const int* owner_group,
                              uint owners, global const ShadingSphere* spheres, uint sphere_count,
-                             global const TileOcclusion* tiles, global const uint* lists, uint capacity,
-                             uint row_length, uint items, global float* visibility, global uint* validity) {
+                             global const TileOcclusion* tiles, global const uint* lists, uint slots, uint row_length,
+                             uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const uint tile = tile_of_unit(i * W / UNIT, row_length);
@@ -29,27 +29,34 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
     return;
   }
   const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
-  const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
+  whole group = (whole)(-1);
+  if (far.own) group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
 
   real v = far_visibility(far, a, b, c);
+  global const uint* list = lists + tile * (LISTS * slots);
+  for (uint j = 0; j < far.distant; ++j) {
+    const ShadingSphere sphere = spheres[list[j]];
+    const SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * JOIN(distant_, SHARE)(view.height, view.square), v);
+  }
+  list += slots;
+  for (uint j = 0; j < far.close; ++j) {
+    const ShadingSphere sphere = spheres[list[j]];
+    const SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * JOIN(close_, SHARE)(view.height, view.square), v);
+  }
+  list += slots;
   truth too_close = (truth)(0);
-  const int all = far.listed == ALL_SPHERES;
-  const uint count = all ? sphere_count : far.listed;
+  const int all = far.near == ALL_SPHERES;
+  const uint count = all ? sphere_count : far.near;
   for (uint j = 0; j < count; ++j) {
-    const ShadingSphere sphere = spheres[all ? j : lists[tile * capacity + j]];
+    const ShadingSphere sphere = spheres[all ? j : list[j]];
     if (all && !sphere_shades(sphere)) continue;
-    const float inverse_radius = 1.0f / sphere.radius;
-    const real dx = ((real)(sphere.x) - x) * inverse_radius, dy = ((real)(sphere.y) - y) * inverse_radius;
-    const real dz = ((real)(sphere.z) - z) * inverse_radius;
-    real blocked = (real)(fmin(sphere.opacity, 1.0f)) * SHARE(dx, dy, dz, a, b, c);
-    truth within = distance_squared(dx, dy, dz) <= REAL(1.0);
-    if (sphere.group >= 0 && (far.groups >> (sphere.group & 31) & 1u)) {
-      const truth own = group == (whole)(sphere.group);
-      blocked = PICK(own, REAL(0.0), blocked);
-      within &= NOT(own);
-    }
-    v = fma(-v, blocked, v);
-    too_close |= within;
+    SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    // A fragment's own spheres are as far from it as can be.
+    if (sphere.group >= 0) view.square = PICK(group == (whole)(sphere.group), REAL(1e36), view.square);
+    v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * SHARE(view.height, view.square), v);
+    too_close |= view.square <= REAL(1.0);
   }
   STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
   if (ANY(drawn & too_close)) add_validity(validity, i, drawn & too_close, VALIDITY_OCCLUDER_TOO_CLOSE);

@@ -8,7 +8,7 @@
 namespace understory {
 namespace {
 
-constexpr std::size_t longest_list = 256;  // spheres per tile; a tile with more tries all of them
+constexpr std::size_t longest_list = 256;  // spheres; a tile with more tries all of them
 
 std::string share_option(const std::string& method) {
   if (method == "solid-angle") return "-DSHARE=unit_solid_angle";
@@ -45,16 +45,17 @@ void SolidAnglePass::run(const FragmentPlanes& planes, const OwnerTables& owners
   const auto row_length = static_cast<std::uint32_t>(std::max<std::size_t>(planes.row_length, UNIT));
   const auto units = static_cast<std::uint32_t>(planes.padded_fragments / UNIT);
   const std::uint32_t tiles = tiles_of_units(units, row_length);
-  const auto capacity = static_cast<std::uint32_t>(std::clamp<std::size_t>(sphere_count, 1, longest_list));
-  fit_tables(tiles, static_cast<std::size_t>(tiles) * capacity);
+  // Spheres are sorted UNIT at a time.
+  const auto slots = static_cast<std::uint32_t>(std::min(sphere_count, longest_list) + UNIT);
+  fit_tables(tiles, static_cast<std::size_t>(tiles) * LISTS * slots);
 
-  list_.launch(tiles, 1, planes.position_x, planes.position_y, planes.position_z, planes.normal_x, planes.normal_y,
-               planes.normal_z, planes.owner, planes.validity, owners.group, owners.rows(), spheres, count, error_.each,
-               error_.total, row_length, units, tiles, tiles_, lists_, capacity);
+  list_.launch(tiles, 1, planes.position_x, planes.position_y, planes.position_z, planes.owner, planes.validity,
+               owners.group, owners.rows(), spheres, count, error_.each, error_.total, row_length, units, tiles, tiles_,
+               lists_, slots);
   const std::uint32_t items = lanes_.items(planes);
   shade_.launch(items, lanes_.local_size(1), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
                 planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(), spheres, count, tiles_,
-                lists_, capacity, row_length, items, visibility, planes.validity);
+                lists_, slots, row_length, items, visibility, planes.validity);
 }
 
 }  // namespace understory

@@ -11,10 +11,10 @@
 
 namespace understory {
 
-/// How much distant spheres may be approximated together, per tile of 16 x 16 fragments, as changes of V.
+/// How much distant spheres may be approximated together, per tile of 64 x 4 fragments, as changes of V.
 struct FarFieldError {
-  float each = 1.0f / 1020;  // of one sphere: a quarter of an 8-bit step
-  float total = 1.0f / 64;   // of all spheres: the bound holds for each fragment; 0: every sphere exactly
+  float each = 1.0f / 640;  // of one sphere
+  float total = 1.0f / 64;  // of all spheres: the bound holds for each fragment; 0: every sphere exactly
 };
 
 class SolidAnglePass {

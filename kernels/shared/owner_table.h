@@ -1,5 +1,5 @@
-// What the W fragments of a work-item belong to. Neighbours mostly share an owner, so kernels go through the distinct
-// owners one by one and read each row once for all of its lanes: gathers by lane cost several times as much on a CPU.
+// What the W fragments of a work-item belong to. A kernel that needs one number per owner takes a column (owner_column);
+// one that needs a whole record goes through the distinct owners one by one, and reads each row once for all its lanes:
 //   for (truth left = ALL_LANES; ANY(left);) {
 //     const uint row = next_owner(owner, left);
 //     const truth lanes = left & (owner == (bits)(row));
@@ -36,16 +36,15 @@ SHARED uint next_owner(bits owner, truth left) {
 #endif
 }
 
-/// The column's value for each lane.
+/// The column's value for each lane: one look-up where all lanes share an owner, else one per lane.
 SHARED bits owner_column(global const uint* column, bits owner) {
-  bits value = (bits)(0u);
-  for (truth left = ALL_LANES; ANY(left);) {
-    const uint row = next_owner(owner, left);
-    const truth lanes = left & (owner == (bits)(row));
-    left &= NOT(lanes);
-    value = PICK(lanes, (bits)(column[row]), value);
-  }
-  return value;
+#if W == 1
+  return column[owner];
+#else
+  const uint first = owner.s0;
+  if (!ANY(owner != (bits)(first))) return (bits)(column[first]);
+  return GATHER(bits, column, owner, );
+#endif
 }
 
 SHARED whole signed_owner_column(global const int* column, bits owner) {

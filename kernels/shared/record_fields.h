@@ -35,7 +35,8 @@
   field(GridRecord, padding_) record(GridRecord)                                                                    \
   field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
   field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
-  field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, listed) field(TileOcclusion, error)        \
-  field(TileOcclusion, groups) field(TileOcclusion, padding_) record(TileOcclusion)
+  field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, distant) field(TileOcclusion, close)       \
+  field(TileOcclusion, near) field(TileOcclusion, own) field(TileOcclusion, error) field(TileOcclusion, padding_)   \
+  record(TileOcclusion)
 
 #endif

@@ -19,4 +19,18 @@ SHARED int sphere_shades(const ShadingSphere sphere) {
          fabs(sphere.y) < FARTHEST && fabs(sphere.z) < FARTHEST;
 }
 
+/// A sphere as fragments see it, in units of its radius: the centre's height above the tangent plane, distance squared.
+typedef struct {
+  real height, square;
+} SphereView;
+
+/// (x, y, z): fragments, m; (a, b, c): their unit normals.
+SHARED SphereView view_sphere(const ShadingSphere sphere, real x, real y, real z, real a, real b, real c) {
+  const float scale = 1.0f / sphere.radius;
+  const real dx = (real)(sphere.x) - x, dy = (real)(sphere.y) - y, dz = (real)(sphere.z) - z;
+  const SphereView view = {fma(dx, a, fma(dy, b, dz * c)) * scale,
+                           fma(dx, dx, fma(dy, dy, dz * dz)) * (scale * scale)};
+  return view;
+}
+
 #endif

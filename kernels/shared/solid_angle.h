@@ -40,9 +40,9 @@ SHARED real share_inside(real share, real distance) {
   return PICK(distance < REAL(1.0), fma(-distance, REAL(1.0) - as_share(share), REAL(1.0)), share);
 }
 
-SHARED real unit_solid_angle(real x, real y, real z, real a, real b, real c) {
-  (void)a, (void)b, (void)c;  // takes what the others take
-  return as_share(REAL(0.5) / distance_squared(x, y, z));
+SHARED real unit_solid_angle(real s, real square) {
+  (void)s;  // takes what the others take
+  return as_share(REAL(0.5) / square);
 }
 
 /// Where the plane cuts the sphere, or the fragment lies within it.
@@ -55,8 +55,8 @@ SHARED real cut_solid_angle_exact(real height, real square) {
   return share_inside(share, distance);
 }
 
-SHARED real unit_solid_angle_exact(real x, real y, real z, real a, real b, real c) {
-  const real s = fma(x, a, fma(y, b, z * c)), square = distance_squared(x, y, z), p = REAL(1.0) / square;
+SHARED real unit_solid_angle_exact(real s, real square) {
+  const real p = REAL(1.0) / square;
   const real whole = p / (REAL(1.0) + sqrt(at_least(REAL(1.0) - p, REAL(0.0))));
   const truth cut = (fabs(s) < REAL(1.0)) | (square < REAL(1.0));
   real share = PICK(s > REAL(0.0), whole, REAL(0.0));
@@ -85,42 +85,63 @@ SHARED real distant_cut_cosine(real s, real cube) {
   return cube * fma(REAL(0.5), s, even);
 }
 
-/// d >= 2: error 1.9e-6.
+/// d >= 1.5: error 1.0e-5.
 SHARED real close_cut_cosine(real s, real p, real cube) {
   const real v = s * s;
-  real zeroth = fma(REAL(0.00273448101), v, REAL(-0.0121865924));
-  zeroth = fma(fma(fma(zeroth, v, REAL(-0.0192984532)), v, REAL(0.316219344)), v, REAL(0.212514561));
-  real first = fma(REAL(-0.0662470204), v, REAL(0.103075839));
-  first = fma(fma(fma(first, v, REAL(0.0418106816)), v, REAL(-0.137488154)), v, REAL(0.0590581982));
-  real second = fma(REAL(0.0867369437), v, REAL(-0.127310021));
-  second = fma(fma(fma(second, v, REAL(0.074951594)), v, REAL(-0.0888092794)), v, REAL(0.0541010268));
+  real zeroth = fma(REAL(0.000777913753), v, REAL(-0.00374477773));
+  zeroth = fma(fma(fma(zeroth, v, REAL(-0.0286436851)), v, REAL(0.318303257)), v, REAL(0.213446591));
+  real first = fma(REAL(-0.0135558495), v, REAL(-0.0296070418));
+  first = fma(fma(fma(first, v, REAL(0.149480718)), v, REAL(-0.157503297)), v, REAL(0.0508066654));
+  real second = fma(REAL(-0.0311828724), v, REAL(0.153302955));
+  second = fma(fma(fma(second, v, REAL(-0.140697678)), v, REAL(-0.0522853237)), v, REAL(0.0711808654));
   return cube * fma(REAL(0.5), s, fma(fma(second, p, first), p, zeroth));
 }
 
-SHARED real unit_solid_angle_cosine(real x, real y, real z, real a, real b, real c) {
-  const real s = fma(x, a, fma(y, b, z * c)), square = distance_squared(x, y, z);
+/// Negative where the sphere is below the plane.
+SHARED real close_share_cosine(real s, real square) {
   const real inverse = REAL(1.0) / sqrt(square), p = inverse * inverse, cube = p * inverse;
-  const truth cut = fabs(s) < REAL(1.0), close = square < REAL(16.0);
-  real share = PICK(cut, distant_cut_cosine(s, cube), s * cube);
-  if (ANY(close)) {
-    const truth near = square < REAL(4.0);
-    share = PICK(cut & close, close_cut_cosine(s, p, cube), share);
-    if (ANY(near)) share = PICK(near, near_solid_angle_cosine(s, square), share);
-  }
+  return PICK(fabs(s) < REAL(1.0), close_cut_cosine(s, p, cube), s * cube);
+}
+
+SHARED real unit_solid_angle_cosine(real s, real square) {
+  real share = close_share_cosine(s, square);
+  const truth near = square < REAL(2.25);
+  if (ANY(near)) share = PICK(near, near_solid_angle_cosine(s, square), share);
   return at_least(share, REAL(0.0));
 }
 
-/// The same for a sphere of `radius` > 0, lengths in m.
+// The same, without a branch, where the fragment is at least 4 radii (distant) or 1.5 radii (close) away.
+
+SHARED real distant_unit_solid_angle(real s, real square) { return unit_solid_angle(s, square); }
+SHARED real close_unit_solid_angle(real s, real square) { return unit_solid_angle(s, square); }
+SHARED real distant_unit_solid_angle_exact(real s, real square) { return unit_solid_angle_exact(s, square); }
+SHARED real close_unit_solid_angle_exact(real s, real square) { return unit_solid_angle_exact(s, square); }
+
+SHARED real distant_unit_solid_angle_cosine(real s, real square) {
+  const real cube = REAL(1.0) / (square * sqrt(square));
+  return at_least(PICK(fabs(s) < REAL(1.0), distant_cut_cosine(s, cube), s * cube), REAL(0.0));
+}
+SHARED real close_unit_solid_angle_cosine(real s, real square) {
+  return at_least(close_share_cosine(s, square), REAL(0.0));
+}
+
+/// Height of a sphere's centre (x, y, z) above the tangent plane of a fragment of normal (a, b, c).
+SHARED real height_above_plane(real x, real y, real z, real a, real b, real c) { return fma(x, a, fma(y, b, z * c)); }
+
+/// The shares of a sphere of `radius` > 0, lengths in m.
 SHARED real solid_angle(real x, real y, real z, real a, real b, real c, real radius) {
-  return unit_solid_angle(x / radius, y / radius, z / radius, a, b, c);
+  x = x / radius, y = y / radius, z = z / radius;
+  return unit_solid_angle(height_above_plane(x, y, z, a, b, c), distance_squared(x, y, z));
 }
 
 SHARED real solid_angle_exact(real x, real y, real z, real a, real b, real c, real radius) {
-  return unit_solid_angle_exact(x / radius, y / radius, z / radius, a, b, c);
+  x = x / radius, y = y / radius, z = z / radius;
+  return unit_solid_angle_exact(height_above_plane(x, y, z, a, b, c), distance_squared(x, y, z));
 }
 
 SHARED real solid_angle_cosine(real x, real y, real z, real a, real b, real c, real radius) {
-  return unit_solid_angle_cosine(x / radius, y / radius, z / radius, a, b, c);
+  x = x / radius, y = y / radius, z = z / radius;
+  return unit_solid_angle_cosine(height_above_plane(x, y, z, a, b, c), distance_squared(x, y, z));
 }
 
 #undef INVERSE_PI

@@ -1,4 +1,4 @@
-// Bounds of the positions and normals of a tile's fragments, gathered 16 lanes at a time, then put together.
+// Bounds of the positions of a tile's fragments, gathered 16 lanes at a time, then put together.
 #ifndef UNDERSTORY_TILE_BOUNDS_H
 #define UNDERSTORY_TILE_BOUNDS_H
 
@@ -9,23 +9,21 @@ typedef struct {
 } Range;
 
 typedef struct {
-  Range x, y, z, a, b, c;  // positions, m; normals
-  bits groups;             // bit g mod 32 for every owner group g >= 0
+  Range x, y, z;  // positions, m
+  bits groups;    // bit g mod 32 for every owner group g >= 0
 } TileBounds;
 
 /// The tile as spheres see it.
 typedef struct {
-  float low[3], high[3], middle[3];     // m, camera-relative
-  float normal_low[3], normal_high[3];
-  float normal[3];                      // unit, the middle's; spread: largest distance of a normal from it
-  float spread, reach;                  // 1; m: largest distance of a fragment from the middle
+  float low[3], high[3], middle[3];  // m, camera-relative
+  float reach;                       // m: largest distance of a fragment from the middle
   uint groups;
-  int drawn;                            // it has fragments at all
+  int drawn;                         // it has fragments at all
 } TileView;
 
 SHARED TileBounds no_bounds(void) {
   const Range none = {(real)(INFINITY), (real)(-INFINITY)};
-  const TileBounds bounds = {none, none, none, none, none, none, (bits)(0u)};
+  const TileBounds bounds = {none, none, none, (bits)(0u)};
   return bounds;
 }
 
@@ -54,27 +52,15 @@ SHARED uint any_bits(bits v) {
 
 SHARED TileView view_of(const TileBounds bounds) {
   TileView view;
-  const Range position[3] = {bounds.x, bounds.y, bounds.z}, normal[3] = {bounds.a, bounds.b, bounds.c};
-  float reach = 0, spread = 0, length = 0;
+  const Range position[3] = {bounds.x, bounds.y, bounds.z};
+  float reach = 0;
   for (int axis = 0; axis < 3; ++axis) {
     view.low[axis] = lowest(position[axis].low);
     view.high[axis] = highest(position[axis].high);
     view.middle[axis] = 0.5f * (view.low[axis] + view.high[axis]);
-    view.normal_low[axis] = lowest(normal[axis].low);
-    view.normal_high[axis] = highest(normal[axis].high);
-    view.normal[axis] = 0.5f * (view.normal_low[axis] + view.normal_high[axis]);
     const float edge = 0.5f * (view.high[axis] - view.low[axis]);
     reach += edge * edge;
-    length += view.normal[axis] * view.normal[axis];
   }
-  const float scale = 1.0f / sqrt(fmax(length, 1e-12f));
-  for (int axis = 0; axis < 3; ++axis) {
-    view.normal[axis] *= scale;
-    const float off =
-        fmax(view.normal_high[axis] - view.normal[axis], view.normal[axis] - view.normal_low[axis]);
-    spread += off * off;
-  }
-  view.spread = sqrt(spread);
   view.reach = sqrt(reach);
   view.groups = any_bits(bounds.groups);
   view.drawn = view.low[0] <= view.high[0];

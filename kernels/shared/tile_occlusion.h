@@ -12,15 +12,17 @@ typedef std::uint32_t list_length;
 typedef uint list_length;
 #endif
 
-#define ALL_SPHERES 0xffffffffu  // the list was too short: every sphere must be tried, and E is 0
+#define ALL_SPHERES 0xffffffffu  // the list was too short: every sphere must be tried as a near one, and E is 0
 
 typedef struct {
   float level, x, y, z;          // 1; g
   float xx, yy, zz, xy, xz, yz;  // M, off-diagonal entries doubled
-  list_length listed;            // spheres in the tile's list, or ALL_SPHERES
-  float error;                   // bound of what E and left-out spheres change V by
-  list_length groups;            // bit g mod 32 for every owner group g >= 0 of the tile's fragments
-  float padding_[3];
+  list_length distant;           // spheres at least 4 radii from all fragments
+  list_length close;             // at least 1.5 radii
+  list_length near;              // nearer, or perhaps of a fragment's own group; or ALL_SPHERES
+  list_length own;               // 1: a sphere of `near` may be of a fragment's own group
+  float error;                   // bound of what E changes V by
+  float padding_[1];
 } TileOcclusion;                 // 64 bytes
 
 #ifdef __OPENCL_C_VERSION__

@@ -1,5 +1,5 @@
-// How 16 spheres at a time relate to a tile: which of them its fragments can see, and what folding each one into the
-// tile's far occlusion would cost in accuracy. -DSHARE as in solid_angle.cl.
+// How 16 spheres at a time relate to a tile: which of them are distant, and what folding each one into the tile's far
+// occlusion would cost in accuracy. -DSHARE as in solid_angle.cl.
 #ifndef UNDERSTORY_TILE_SPHERES_H
 #define UNDERSTORY_TILE_SPHERES_H
 
@@ -22,9 +22,11 @@ typedef struct {
 } SphereLanes;
 
 typedef struct {
-  truth seen;       // some fragment may lie above some of the sphere
-  truth one_normal; // folding with the middle's normal costs less than the quadratic
-  real error;       // of folding, as a change of V
+  truth own;      // of a group that the tile has a fragment of, up to the group's number mod 32
+  truth distant;  // at least 4 radii from all fragments, and not own
+  truth close;    // at least 1.5 radii, and neither
+  truth near;     // all others
+  real error;     // of folding, as a change of V
 } SphereBounds;
 
 /// Far occlusion so far, one share per lane (tile_occlusion.h), and what it costs.
@@ -32,6 +34,11 @@ typedef struct {
   real level, x, y, z, xx, yy, zz, xy, xz, yz;
   float error;
 } FarField;
+
+/// Spheres listed so far.
+typedef struct {
+  uint distant, close, near, own;
+} SphereLists;
 
 SHARED FarField no_field(void) {
   const real zero = REAL(0.0);
@@ -54,36 +61,27 @@ SHARED SphereLanes load_spheres(global const ShadingSphere* spheres, uint first,
   return s;
 }
 
-/// Distance along one axis from the box to the sphere's centre, and the range of the centre's height above tangent planes.
-SHARED real bound_axis(const TileView view, int axis, real centre, private Range* height) {
-  const real from_high = centre - (real)(view.high[axis]), from_low = centre - (real)(view.low[axis]);
-  const real low = (real)(view.normal_low[axis]), high = (real)(view.normal_high[axis]);
-  const real p = low * from_high, q = low * from_low, r = high * from_high, s = high * from_low;
-  height->low += fmin(fmin(p, q), fmin(r, s));
-  height->high += fmax(fmax(p, q), fmax(r, s));
-  return fmax(fmax(from_high, -from_low), REAL(0.0));
+/// Distance along one axis from the box to the sphere's centre.
+SHARED real off_axis(const TileView view, int axis, real centre) {
+  return fmax(fmax(centre - (real)(view.high[axis]), (real)(view.low[axis]) - centre), REAL(0.0));
 }
 
 SHARED SphereBounds bound_spheres(const TileView view, const SphereLanes s) {
-  Range height = {REAL(0.0), REAL(0.0)};
-  const real dx = bound_axis(view, 0, s.x, &height), dy = bound_axis(view, 1, s.y, &height);
-  const real dz = bound_axis(view, 2, s.z, &height);
-  const real distance = sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));  // of the nearest point of the box
+  const real dx = off_axis(view, 0, s.x), dy = off_axis(view, 1, s.y), dz = off_axis(view, 2, s.z);
+  const real distance = sqrt(distance_squared(dx, dy, dz));  // of the nearest point of the box
   const real inverse = REAL(1.0) / at_least(distance, REAL(1e-6));
-  const real ratio = at_most(s.radius * inverse, REAL(1.0));
+  const real ratio = at_most(s.radius * inverse, REAL(1.0)), q = ratio * ratio;
 
   SphereBounds bounds;
-  // The paper's share has no tangent plane; its step is 0, as are its slope and its error.
-  const truth above = height.high > -s.radius * REAL(1.0001);
-  bounds.seen = s.there & (FAR.error > 0.0f ? above : s.there);
-  const truth clear = height.low > s.radius;
-  const real quadratic = (real)(FAR.error);
-  const real one_normal = (real)(FAR.slope * view.spread) + PICK(clear, REAL(0.0), (real)(FAR.step));
-  bounds.one_normal = one_normal < quadratic;
-  // Within `reach` of the middle the share changes by sqrt(5) q/d at most (of q max(0, n.u)).
-  const real moved = (real)(2.2361f * view.reach) * inverse;
-  const real units = PICK(bounds.one_normal, one_normal, quadratic) + moved + (real)(FAR.root_error) * ratio;
-  bounds.error = s.opacity * ratio * ratio * (units + ratio * ratio);
+  const bits bit = (bits)(1u) << (TO_BITS(s.group) & (bits)(31u));
+  bounds.own = s.there & (s.group >= 0) & ((bit & (bits)(view.groups)) != (bits)(0u));
+  bounds.distant = s.there & NOT(bounds.own) & (ratio <= REAL(0.25));
+  bounds.close = s.there & NOT(bounds.own) & (ratio > REAL(0.25)) & (ratio <= REAL(0.66666667));
+  bounds.near = s.there & NOT(bounds.distant | bounds.close);
+  real units = fma((real)(FAR.moved * view.reach), inverse, (real)(FAR.error));
+  units = fma((real)(FAR.root_error), ratio, units);
+  // exp(-e) is folded in place of 1 - e: off by e^2/2, and e is 17/16 of the share at most.
+  bounds.error = s.opacity * q * fma(REAL(0.57) * s.opacity, q, units);
   return bounds;
 }
 
@@ -93,35 +91,31 @@ SHARED float total(real v) {
   return (b.x + b.y) + (b.z + b.w);
 }
 
-/// Spheres worth folding, if the budget still has room for them.
-SHARED truth choose_folded(const TileView view, const SphereLanes s, const SphereBounds bounds, float each,
-                           float budget, private FarField* field) {
-  const bits bit = (bits)(1u) << (TO_BITS(s.group) & (bits)(31u));
-  const truth own = (s.group >= 0) & ((bit & (bits)(view.groups)) != (bits)(0u));
-  const truth cheap = bounds.seen & NOT(own) & (bounds.error <= (real)(each));
-  const float all = total(PICK(cheap, bounds.error, REAL(0.0)));
-  if (field->error + all > budget) return (truth)(0);
-  field->error += all;
-  return cheap;
+/// Sum of the lanes up to each lane.
+SHARED real running_total(real v) {
+  const float none = 0.0f;
+  v += (real)(none, v.s0, v.s1, v.s2, v.s3, v.s4, v.s5, v.s6, v.s7, v.s8, v.s9, v.sa, v.sb, v.sc, v.sd, v.se);
+  v += (real)(none, none, v.s0, v.s1, v.s2, v.s3, v.s4, v.s5, v.s6, v.s7, v.s8, v.s9, v.sa, v.sb, v.sc, v.sd);
+  v += (real)((float4)(none), v.s0123, v.s4567, v.s89ab);
+  return v + (real)((float8)(none), v.lo);
 }
 
-SHARED void fold(const TileView view, const SphereLanes s, const SphereBounds bounds, truth folded,
-                 private FarField* field) {
-  if (!ANY(folded)) return;
-  const real dx = s.x - (real)(view.middle[0]), dy = s.y - (real)(view.middle[1]), dz = s.z - (real)(view.middle[2]);
-  const real inverse = REAL(1.0) / sqrt(at_least(fma(dx, dx, fma(dy, dy, dz * dz)), REAL(1e-12)));
-  const real ux = dx * inverse, uy = dy * inverse, uz = dz * inverse;
-  const real ratio = s.radius * inverse;
+/// Spheres worth folding, from the first one on while the budget lasts.
+SHARED truth choose_folded(const SphereBounds bounds, float each, float budget, private FarField* field) {
+  const truth cheap = bounds.distant & (bounds.error <= (real)(each));
+  const real error = PICK(cheap, bounds.error, REAL(0.0));
+  const truth folded = cheap & (running_total(error) <= (real)(budget - field->error));
+  field->error += total(PICK(folded, error, REAL(0.0)));
+  return folded;
+}
 
-  const truth flat = folded & bounds.one_normal, quadratic = folded & NOT(bounds.one_normal);
-  const real inverse_radius = REAL(1.0) / s.radius;
-  const real share = s.opacity * SHARE(dx * inverse_radius, dy * inverse_radius, dz * inverse_radius,
-                                       (real)(view.normal[0]), (real)(view.normal[1]), (real)(view.normal[2]));
-  // -log(1 - share), share <= 1/2 wherever folding is cheap enough.
-  const real depth = share * fma(share, fma(share, REAL(0.33333333), REAL(0.5)), REAL(1.0));
-  const real weight = PICK(quadratic, s.opacity * ratio * ratio, REAL(0.0));
+SHARED void fold(const TileView view, const SphereLanes s, truth folded, private FarField* field) {
+  const real dx = s.x - (real)(view.middle[0]), dy = s.y - (real)(view.middle[1]), dz = s.z - (real)(view.middle[2]);
+  const real inverse = REAL(1.0) / sqrt(at_least(distance_squared(dx, dy, dz), REAL(1e-12)));
+  const real ux = dx * inverse, uy = dy * inverse, uz = dz * inverse, ratio = s.radius * inverse;
+  const real weight = PICK(folded, s.opacity * ratio * ratio, REAL(0.0));
   const real c1 = weight * (real)(FAR.c1), c2 = weight * (real)(FAR.c2);
-  field->level += fma(weight, (real)(FAR.c0), PICK(flat, depth, REAL(0.0)));
+  field->level = fma(weight, (real)(FAR.c0), field->level);
   field->x = fma(c1, ux, field->x);
   field->y = fma(c1, uy, field->y);
   field->z = fma(c1, uz, field->z);
@@ -133,11 +127,22 @@ SHARED void fold(const TileView view, const SphereLanes s, const SphereBounds bo
   field->yz = fma(REAL(2.0) * c2 * uy, uz, field->yz);
 }
 
-SHARED TileOcclusion tile_occlusion(const FarField field, uint groups, uint listed) {
+/// Appends `first` + lane for each lane that `counts`; what does not count is written over by the next that does.
+SHARED uint append(global uint* list, uint length, uint first, truth counts) {
+  int steps[W];
+  STORE(counts & 1, steps, 0);
+  for (uint lane = 0; lane < W; ++lane) {
+    list[length] = first + lane;
+    length += steps[lane];
+  }
+  return length;
+}
+
+SHARED TileOcclusion tile_occlusion(const FarField field, const SphereLists lists) {
   const TileOcclusion tile = {total(field.level), total(field.x),  total(field.y),  total(field.z),
                               total(field.xx),    total(field.yy), total(field.zz), total(field.xy),
-                              total(field.xz),    total(field.yz), listed,          field.error,
-                              groups,             {0, 0, 0}};
+                              total(field.xz),    total(field.yz), lists.distant,   lists.close,
+                              lists.near,         lists.own,       field.error,     {0}};
   return tile;
 }
 

@@ -85,7 +85,7 @@ TEST(SolidAngle, SharedFormsAreTheQuadrature) {
 
 TEST(SolidAngle, IsContinuousWhereTheSphereCrossesThePlaneTheFitEndsAndTheInsideBegins) {
   const double step = 1e-7;
-  for (const double d : {0.5, 1.0, 1.3, 2.0, 4.0, 9.0}) {
+  for (const double d : {0.5, 1.0, 1.3, 1.5, 2.0, 4.0, 9.0}) {
     for (int i = -120; i <= 120; ++i) {
       const double s = std::clamp(i / 100.0, -d, d);
       const auto centre = [&](double height, double distance) {

@@ -110,10 +110,12 @@ TEST(FragmentTiles, PartitionTheUnitsOfAnyImage) {
       for (tile_count tile = 0; tile < tiles; ++tile)
         for (tile_count row = 0; row < TILE_ROWS; ++row) {
           const tile_count top = tile / tile_columns(length) * TILE_ROWS;
-          const tile_count unit = first_unit(top + row, length) + tile % tile_columns(length);
-          if (unit >= std::min(first_unit(top + row + 1, length), units)) continue;
-          ++visits[unit];
-          EXPECT_EQ(tile_of_unit(unit, length), tile);
+          const tile_count begin = first_unit(top + row, length) + tile % tile_columns(length) * TILE_UNITS;
+          const tile_count end = std::min({begin + TILE_UNITS, first_unit(top + row + 1, length), units});
+          for (tile_count unit = begin; unit < end; ++unit) {
+            ++visits[unit];
+            EXPECT_EQ(tile_of_unit(unit, length), tile);
+          }
         }
       EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), units) << length << ' ' << units;
     }

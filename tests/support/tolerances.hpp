@@ -20,7 +20,7 @@ inline constexpr double grass = 3e-7;
 inline constexpr double open_dome = 1.2e-7;
 // Bilinear: cell coordinates up to 100 are rounded to 24 bits, times a slope of at most 1 per cell.
 inline constexpr double ground_cover = 2e-5;
-// solid_angle_cosine: least-maximum fits of 8.5e-6 from 4 radii on and of 1.9e-6 from 2 on, and roundings.
+// solid_angle_cosine: least-maximum fits of 8.5e-6 from 4 radii on and of 1.0e-5 from 1.5 on, and roundings.
 inline constexpr double solid_angle = 1.5e-5;
 // A product of up to 40 factors, most of them far from where the fits err most.
 inline constexpr double solid_angle_product = 4e-5;
