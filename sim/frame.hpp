@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,11 @@ struct Frame {
   Plane visibility;                       // V_c, [0, 1]; background: 1
   Plane halfwidth;                        // of truth: of the 95 % interval about `visibility`; empty otherwise
   std::vector<std::uint32_t> rays;        // of truth: rays per pixel, 0 where there is no surface; empty otherwise
-  std::vector<Owner> owners;              // the owner table
+  std::array<Plane, 3> ambient_light;     // red, green, blue of the environment's light; empty under a uniform sky
+  glm::vec3 sky_mean{1};                  // radiance of that sky, mean over what a level surface faces
+  std::shared_ptr<const EnvironmentMap> environment;  // seen where nothing is drawn; null: a uniform sky
+  double environment_turn = 0;                        // radians
+  std::vector<Owner> owners;                          // the owner table
   glm::dmat4 world_to_camera{1};          // column vectors; camera looks along -z, y up (OpenGL and Blender)
   double vertical_fov = 0;                // radians; 0: orthographic or unknown
   double near_plane = 0;                  // m

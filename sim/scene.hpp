@@ -154,6 +154,13 @@ struct OccluderSource {
   glm::vec3 albedo{0.35f, 0.33f, 0.30f};
 };
 
+/// Light from a picture of the whole sky instead of a uniform one.
+struct EnvironmentSource {
+  std::filesystem::path map;  // latitude-longitude EXR (sim/environment.hpp); empty: the sky is uniform
+  double turn = 0;            // radians, counter-clockwise seen from above
+  double gloss = 0;           // half-angle of the cone of sky that occluders mirror, radians; 0: they are matt
+};
+
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
   std::string tree = "sphere-cap";               // sphere-cap, ellipsoid-cap, reeves-blau, ambient, none
@@ -180,6 +187,7 @@ struct Scene {
   std::vector<PlantPlacement> plants;
   std::vector<GrassField> grass;
   std::vector<OccluderSource> occluders;
+  EnvironmentSource environment;
   Methods methods;
 };
 

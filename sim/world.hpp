@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/environment.hpp"
 #include "sim/prototype.hpp"
 #include "sim/scene.hpp"
 
@@ -87,7 +88,8 @@ struct World {
   std::vector<OccluderSphere> occluder_spheres;
   std::shared_ptr<const Terrain> terrain;  // null: no terrain, plants stand on z = 0
   std::shared_ptr<const Wind> wind;
-  std::shared_ptr<const Dynamics> dynamics;  // what pose_at looks up: sway series, recorded motion
+  std::shared_ptr<const EnvironmentMap> environment;  // null: a uniform sky
+  std::shared_ptr<const Dynamics> dynamics;           // what pose_at looks up: sway series, recorded motion
 };
 
 /// Builds everything a scene describes. Throws Error(invalid_input) naming file, key and value.

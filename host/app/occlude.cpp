@@ -13,6 +13,7 @@
 #include "host/app/commands.hpp"
 #include "host/app/gbuffer_flags.hpp"
 #include "host/app/options.hpp"
+#include "host/app/scene_world.hpp"
 #include "host/frame/runner.hpp"
 #include "sim/error.hpp"
 #include "sim/files/scene_file.hpp"
@@ -92,7 +93,7 @@ int occlude(const OccludeOptions& options) {
   std::optional<World> world;
   if (!options.scene.file.empty()) {
     const Scene scene = load_scene(options.scene);
-    world = build_world(scene);
+    world = read_world(scene);
     settle_owners(options, *world, gbuffer);
     if (frame.origin != scene.origin && frame.origin != glm::dvec3(0))
       throw Error(

@@ -21,6 +21,7 @@
 #include "host/app/run_folder.hpp"
 #include "host/app/run_identity.hpp"
 #include "host/app/run_summary.hpp"
+#include "host/app/scene_world.hpp"
 #include "host/frame/runner.hpp"
 #include "sim/error.hpp"
 
@@ -73,7 +74,7 @@ int compute_frames(const RunOptions& options, const Scene& scene, const std::vec
   Device device(options.device.device);
   record.device = device_json(device.info()).dump();
   require_same_run(folder, record);
-  const World world = build_world(scene);
+  const World world = read_world(scene);
   FrameRunner runner(device, world);
   record.plan.clear();
   for (const PlannedPass& pass : runner.plan().passes) record.plan.push_back(pass.name);

@@ -23,6 +23,7 @@ std::map<std::string, std::string> hash_inputs(const Scene& scene) {
   };
   add("terrain", scene.terrain.file);
   add("wind.record", scene.wind.record);
+  add("environment.map", scene.environment.map);
   for (const SpeciesSource& species : scene.species) add("species." + species.name + ".mesh", species.mesh);
   for (std::size_t i = 0; i < scene.occluders.size(); ++i) {
     const OccluderSource& occluder = scene.occluders[i];

@@ -7,6 +7,7 @@
 
 #include "host/app/commands.hpp"
 #include "host/app/options.hpp"
+#include "host/app/scene_world.hpp"
 #include "host/frame/runner.hpp"
 #include "viz/vtk/display_check.hpp"
 #include "viz/vtk/window.hpp"
@@ -30,7 +31,7 @@ int view(const ViewCommand& options) {
   use_threads(options.device);
   const Scene scene = load_scene(options.scene);
   Device device(options.device.device);
-  const World world = build_world(scene);
+  const World world = read_world(scene);
   FrameRunner runner(device, world);
   Methods chosen = scene.methods;
 

@@ -11,7 +11,7 @@ namespace {
 /// What the scene holds, as far as passes care.
 struct Contents {
   bool meshes = false, grass = false, crowns = false, bodies_beside_crowns = false, occluders = false;
-  bool ground_cover = false, dome = true;
+  bool ground_cover = false, dome = true, environment = false;
 };
 
 Contents contents_of(const World& world) {
@@ -25,6 +25,7 @@ Contents contents_of(const World& world) {
   contents.occluders = !world.occluder_spheres.empty();
   contents.ground_cover = world.ground_cover.columns > 0 && world.terrain != nullptr;
   contents.dome = world.scene.sky == Sky::dome;
+  contents.environment = world.environment != nullptr;
   return contents;
 }
 
@@ -70,6 +71,7 @@ void plan_visibility(const Contents& contents, const Methods& methods, Plan& pla
     plan.passes.push_back({crowns, "solid_angle", crowns == occluders ? "crowns and moving occluders" : "crowns"});
   if (occluders != "none" && occluders != crowns) plan.passes.push_back({occluders, "solid_angle", "moving occluders"});
   plan.passes.push_back({"combine", "combine", "every frame"});
+  if (contents.environment) plan.passes.push_back({"environment", "environment", "environment: map"});
 }
 
 }  // namespace

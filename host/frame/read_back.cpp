@@ -45,6 +45,11 @@ void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
 void read_visibility(const VisibilityPasses& passes, Frame& frame) {
   frame.visibility = read_first(passes.visibility(), frame.pixels());
   for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_first(plane, frame.pixels());
+  if (const EnvironmentLight* light = passes.environment()) {
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      frame.ambient_light[channel] = read_first(light->planes()[channel], frame.pixels());
+    frame.sky_mean = light->mean();
+  }
 }
 
 FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye) {

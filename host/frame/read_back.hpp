@@ -10,7 +10,7 @@ namespace understory {
 /// Positions (camera-relative + `eye`), normals, depth, owner, validity, heights. frame.width and height are set.
 void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame);
 
-/// V_c, the terms, and the validity that the passes flagged.
+/// V_c, the terms, and the environment's light where there is one.
 void read_visibility(const VisibilityPasses& passes, Frame& frame);
 
 /// The frame's planes on the device, camera-relative to `eye`.

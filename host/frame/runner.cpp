@@ -112,6 +112,8 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   frame.width = scene.image.width;
   frame.height = scene.image.height;
   frame.owners = impl_->world.owners;
+  frame.environment = impl_->world.environment;
+  frame.environment_turn = scene.environment.turn;
   frame.world_to_camera = world_to_camera(scene.camera);
   frame.vertical_fov = scene.camera.vertical_fov;
   frame.near_plane = scene.camera.near_plane;

@@ -71,7 +71,8 @@ void shade_planes(Device& device, const World* world, const Methods& methods, do
   CheckFragmentsPass(device).run(planes);
   VisibilityPasses passes(device, world, usable, plan, static_cast<std::size_t>(frame.width),
                           static_cast<std::size_t>(frame.height));
-  passes.run(pose ? &*pose : nullptr, owners, planes);
+  const glm::dvec3 camera = glm::dvec3(glm::inverse(frame.world_to_camera)[3]);
+  passes.run(pose ? &*pose : nullptr, owners, planes, glm::vec3(camera - eye));
   frame.pass_ms = device.take_pass_times();
   std::vector<std::uint32_t> flags(planes.padded_fragments);
   planes.validity.read(std::span<std::uint32_t>(flags));

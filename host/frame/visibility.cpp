@@ -76,6 +76,7 @@ struct VisibilityPasses::Impl {
   std::optional<OpenDomePass> dome;
   std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
   CombinePass combine;
+  std::optional<EnvironmentLight> environment;
   Table<CrownRecord> crowns;
 };
 
@@ -102,6 +103,7 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
     dome.emplace(device);
     add_term("open-dome");
   }
+  if (plan.has("environment")) environment.emplace(device, *world, padded_fragments);
   for (const PlannedPass& pass : plan.passes) {
     if (pass.program != "solid_angle") continue;
     shadings.push_back({SolidAnglePass(device, pass.name),
@@ -155,13 +157,17 @@ VisibilityPasses::~VisibilityPasses() = default;
 VisibilityPasses::VisibilityPasses(VisibilityPasses&&) noexcept = default;
 VisibilityPasses& VisibilityPasses::operator=(VisibilityPasses&&) noexcept = default;
 
-void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes) {
+void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes, glm::vec3 eye) {
   impl_->run_own_models(pose, owners, planes);
   if (pose) impl_->run_spheres(*pose, owners, planes);
   impl_->combine.run(planes, owners, impl_->combined_terms(), impl_->visibility);
+  if (impl_->environment) impl_->environment->run(planes, owners, impl_->visibility, nullptr, eye);
 }
 
 const Buffer<float>& VisibilityPasses::visibility() const { return impl_->visibility; }
 const std::map<std::string, Buffer<float>>& VisibilityPasses::terms() const { return impl_->terms; }
+const EnvironmentLight* VisibilityPasses::environment() const {
+  return impl_->environment ? &*impl_->environment : nullptr;
+}
 
 }  // namespace understory

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "host/frame/environment_light.hpp"
 #include "host/frame/plan.hpp"
 #include "host/passes/planes.hpp"
 #include "sim/pose.hpp"
@@ -19,13 +20,15 @@ class VisibilityPasses {
   VisibilityPasses(VisibilityPasses&&) noexcept;
   VisibilityPasses& operator=(VisibilityPasses&&) noexcept;
 
-  /// Shades `planes`; `pose` is null exactly when the world is.
-  void run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes);
+  /// Shades `planes`; `pose` is null exactly when the world is. `eye`: the camera in the planes' coordinates, m.
+  void run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes, glm::vec3 eye = glm::vec3(0));
 
   /// V_c, one element per padded fragment.
   const Buffer<float>& visibility() const;
   /// Each method's own plane, by the name users type.
   const std::map<std::string, Buffer<float>>& terms() const;
+  /// Coloured light where the scene has an environment map; else null.
+  const EnvironmentLight* environment() const;
 
  private:
   struct Impl;

@@ -287,6 +287,14 @@ void keys(Archive& a, OccluderSource& occluder) {
 }
 
 template <class Archive>
+void keys(Archive& a, EnvironmentSource& environment) {
+  a.file("map", environment.map, "latitude-longitude picture of the sky: EXR, twice as wide as high, zenith on top");
+  a.number("turn", environment.turn, degrees(-360, 360), "turns the map counter-clockwise; its middle looks to +x");
+  a.number("gloss", environment.gloss, degrees(0, 90), "half-angle of the sky that occluders mirror; 0: matt");
+  a.goes_with("map", {"turn", "gloss"});
+}
+
+template <class Archive>
 void keys(Archive& a, Methods& methods) {
   a.word("tree", methods.tree, {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"}, "within a crown");
   a.word("grass", methods.grass, {"grass-height", "ambient", "none"}, "among blades");
@@ -327,6 +335,7 @@ void keys(Archive& a, Scene& scene) {
     a.check(names_differ(occluder.parts), "occluders", "a name of its own for each part of " + occluder.name);
   }
   a.check(names_differ(scene.occluders), "occluders", "a name of its own for each occluder");
+  a.record("environment", scene.environment, "coloured light of a picture of the sky; left out: a uniform sky");
   a.record("methods", scene.methods, "which model of visibility shades what");
   a.at_least_one({"terrain", "plants", "grass", "occluders"});
 }

@@ -31,6 +31,7 @@ const std::string tree = R"("species": {"a": {"generator": "birch"}}, "plants": 
 const std::string box = R"("parts": [{"box": [1, 1, 1]}])";
 
 const std::string accepted[] = {
+    "{" + ground + R"(, "environment": {"map": "scene.json", "turn": -90, "gloss": 15}})",
     "{" + ground + "}",
     "{" + ground + R"(, "name": "x", "seed": 9223372036854775807, "origin": [1, 2.5, -3e5], "sky": "sphere"})",
     "{" + ground + R"(, "image": {"width": 16384, "height": 1}, "time": {"start": -1, "fps": 29.97, "frames": 1}})",
@@ -55,6 +56,8 @@ const std::string accepted[] = {
 };
 
 const std::string refused[] = {
+    "{" + ground + R"(, "environment": {"turn": 10}})",
+    "{" + ground + R"(, "environment": {"map": "scene.json", "gloss": 91}})",
     R"({"occluders": [{"name": "a"}]})",
     R"({"occluders": [{"name": "a", "generator": "walker", )" + box + "}]}",
     R"({"occluders": [{"name": "a", "height": 1.7, )" + box + "}]}",

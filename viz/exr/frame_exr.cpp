@@ -15,6 +15,7 @@ namespace understory {
 namespace {
 
 constexpr const char* axis_names[] = {"X", "Y", "Z"};
+constexpr const char* light_names[] = {"R", "G", "B"};
 constexpr const char* term_suffix = ".Y";
 
 /// OpenEXR's camera is left-handed, x right, y up, +z forward ("Standard Attributes"); ours looks along -z.
@@ -73,6 +74,8 @@ void write_frame_exr(const std::filesystem::path& path, const Frame& frame, cons
     image.floats[std::string("P.") + axis_names[axis]] = frame.position[axis];
     image.floats[std::string("N.") + axis_names[axis]] = frame.normal[axis];
   }
+  for (std::size_t channel = 0; channel < 3 && !frame.ambient_light[channel].empty(); ++channel)
+    image.floats[light_names[channel]] = frame.ambient_light[channel];
   image.floats["Z"] = frame.depth;
   image.floats["A"] = valid_mask(frame);
   if (!frame.height_above_root.empty()) image.floats["height"] = frame.height_above_root;
@@ -132,6 +135,9 @@ Frame read_frame_exr(const std::filesystem::path& path) {
   if (const auto halfwidth = image.floats.find("halfwidth"); halfwidth != image.floats.end())
     frame.halfwidth = halfwidth->second;
   if (const auto rays = image.integers.find("rays"); rays != image.integers.end()) frame.rays = rays->second;
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    if (const auto light = image.floats.find(light_names[channel]); light != image.floats.end())
+      frame.ambient_light[channel] = light->second;
   for (auto& [name, plane] : image.floats)
     if (name.size() > 2 && name.ends_with(term_suffix) && name != "P.Y" && name != "N.Y")
       frame.terms[name.substr(0, name.size() - 2)] = std::move(plane);

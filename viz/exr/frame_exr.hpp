@@ -1,6 +1,6 @@
 // Frames as EXR files: the product's own layout (DESIGN.md, "What machines read"), written and read without loss.
-// Channels: Y (visibility), <method>.Y per term, P.X/Y/Z, N.X/Y/Z, Z, A, owner, validity, height; of truth also
-// halfwidth and rays. No dates inside.
+// Channels: Y (visibility), R, G, B (ambient light, under an environment map only), <method>.Y per term, P.X/Y/Z,
+// N.X/Y/Z, Z, A, owner, validity, height; of truth also halfwidth and rays. No dates inside.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -75,6 +75,20 @@ glm::vec3 sky_radiance(const SkyLight& sky, float sine_of_elevation) {
          (1 + 2 * up) / 3.0f;
 }
 
+/// Radiances of an environment map times this have 1 as the mean that a level surface faces.
+float environment_scale(const Frame& frame) {
+  const float mean = glm::dot(frame.sky_mean, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709 luminance
+  return mean > 0 ? 1 / mean : 1;
+}
+
+/// Colour of the sky that a pixel sees, relative to the mean: of the uniform sky its tint.
+glm::vec3 colour_of_light(const Frame& frame, std::size_t i, const SkyLight& sky) {
+  if (frame.ambient_light[0].empty()) return sky.tint;
+  const float scale = environment_scale(frame);
+  const glm::vec3 light(frame.ambient_light[0][i], frame.ambient_light[1][i], frame.ambient_light[2][i]);
+  return frame.visibility[i] > 1e-3f ? scale * light / frame.visibility[i] : scale * frame.sky_mean;
+}
+
 /// What a covered pixel reflects to the camera, relative to the sky's mean.
 glm::vec3 surface_radiance(const Frame& frame, std::size_t i, const SkyLight& sky,
                            const std::vector<glm::vec3>& plant_albedo) {
@@ -86,17 +100,17 @@ glm::vec3 surface_radiance(const Frame& frame, std::size_t i, const SkyLight& sk
   const SurfaceClass surface = row < frame.owners.size() ? frame.owners[row].surface : SurfaceClass::background;
   if (surface == SurfaceClass::leaf || surface == SurfaceClass::blade)
     arriving += light_from_behind(visibility, normal_z);
-  return albedo * sky.tint * arriving;
+  return albedo * colour_of_light(frame, i, sky) * arriving;
 }
 
-/// The sine of the elevation that the pixel looks at.
-float elevation_sine(const Frame& frame, std::size_t i, const glm::mat3& to_world, float half_height) {
+/// Where the pixel looks.
+glm::vec3 view_direction(const Frame& frame, std::size_t i, const glm::mat3& to_world, float half_height) {
   const auto width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   const auto x = static_cast<float>(i % static_cast<std::size_t>(frame.width)) + 0.5f;
   const auto y = static_cast<float>(i / static_cast<std::size_t>(frame.width)) + 0.5f;
   const glm::vec3 ray =
       to_world * glm::vec3((2 * x - width) / height * half_height, (1 - 2 * y / height) * half_height, -1);
-  return ray.z / glm::length(ray);
+  return glm::normalize(ray);
 }
 
 }  // namespace
@@ -111,11 +125,16 @@ LightPicture sky_light_picture(const Frame& frame, const SkyLight& sky) {
   }
   const glm::mat3 to_world = glm::transpose(glm::mat3(glm::mat4(frame.world_to_camera)));
   const float half_height = std::tan(0.5f * static_cast<float>(frame.vertical_fov));
-  const glm::vec3 haze = sky_radiance(sky, 0);
+  const float scale = environment_scale(frame);
+  const auto background = [&](glm::vec3 towards) {
+    if (!frame.environment) return sky_radiance(sky, towards.z);
+    return scale * radiance_towards(*frame.environment, frame.environment_turn, glm::dvec3(towards));
+  };
+  const glm::vec3 haze = frame.environment ? scale * frame.sky_mean : sky_radiance(sky, 0);
   const float extinction = 3.912f / sky.meteorological_range;  // Koschmieder: ln(1/0.02) over the range
   for (std::size_t i = 0; i < result.light.size(); ++i) {
     if ((frame.validity[i] & validity::background) != 0) {
-      result.light[i] = sky_radiance(sky, elevation_sine(frame, i, to_world, half_height));
+      result.light[i] = background(view_direction(frame, i, to_world, half_height));
     } else {
       const float kept = std::exp(-extinction * frame.depth[i]);
       result.light[i] = glm::mix(haze, surface_radiance(frame, i, sky, plant_albedo), kept);

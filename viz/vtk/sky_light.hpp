@@ -13,7 +13,8 @@ struct SkyLight {
   float exposure = 1.8f;
 };
 
-/// Radiance of every pixel. Background: the CIE overcast sky, L = L_zenith (1 + 2 sin elevation)/3.
+/// Radiance of every pixel. Background: the CIE overcast sky, L = L_zenith (1 + 2 sin elevation)/3; under an
+/// environment map the map, whose ambient light the surfaces receive.
 /// Foliage colour varies by owner and along blades, the ground's by place; leaves and blades let light through.
 /// A function of the frame alone.
 LightPicture sky_light_picture(const Frame& frame, const SkyLight& sky = {});
