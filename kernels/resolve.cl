@@ -1,8 +1,12 @@
 // Turns visible triangles into planes: position on the triangle under the pixel's sample, face normal turned to the
 // viewer (leaves are two-sided), camera depth, owner, validity; with -DGRASS_HEIGHT also the height of a blade's
-// fragment above its root and the blade's length. One work-item per fragment, padded fragments are background.
+// fragment above its root and the blade's length; with -DREST_POINT also where a mesh fragment and its face normal were
+// at rest, prototype frame; with -DFACE_TEXEL the texel of its face (crown_baked.h). One work-item per fragment, padded
+// fragments are background.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/camera.h"
+#include "kernels/shared/crown_baked.h"
+#include "kernels/shared/rest_point.h"
 #include "kernels/shared/triangle_corners.h"
 #include "kernels/shared/visibility_buffer.h"
 
@@ -19,6 +23,17 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
                     global const float* blade_root_z, global const float* blade_length, float root_offset_z,
                     global float* height_above_root, global float* total_height
 #endif
+#ifdef REST_POINT
+                    ,
+                    global const PosedBlock* blocks, global const float* rest_x, global const float* rest_y,
+                    global const float* rest_z, global float* rest_position_x, global float* rest_position_y,
+                    global float* rest_position_z, global float* rest_normal_x, global float* rest_normal_y,
+                    global float* rest_normal_z
+#endif
+#ifdef FACE_TEXEL
+                    ,
+                    global const uint2* faces, global uint* texel, global uint* texel_place
+#endif
 ) {
   const uint i = get_global_id(0);
   if (i >= padded_fragments) return;
@@ -27,6 +42,14 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
 #ifdef GRASS_HEIGHT
   height_above_root[i] = 0;
   total_height[i] = 0;
+#endif
+#ifdef REST_POINT
+  rest_position_x[i] = rest_position_y[i] = rest_position_z[i] = 0;
+  rest_normal_x[i] = rest_normal_y[i] = rest_normal_z[i] = 0;
+#endif
+#ifdef FACE_TEXEL
+  texel[i] = NO_TEXEL;
+  texel_place[i] = 0;
 #endif
   if (triangle == NO_TRIANGLE) {
     position_x[i] = position_y[i] = position_z[i] = 0;
@@ -81,6 +104,39 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
     const uint blade = chunk->first_index + lane;
     height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
     total_height[i] = blade_length[blade];
+  }
+#endif
+#if defined(REST_POINT) || defined(FACE_TEXEL)
+  const float2 place = place_in_triangle((float3)(ux, uy, uz), (float3)(vx, vy, vz),
+                                         (float3)(t * rx - ax, t * ry - ay, t * rz - az));
+#endif
+#ifdef FACE_TEXEL
+  if (is_mesh) {
+    const uint2 face = faces[chunk->first_index + lane];
+    const uint columns = FACE_COLUMNS(face), rows = FACE_ROWS(face);
+    if (columns != 0) {
+      const float x = place.x * (float)columns, y = place.y * (float)rows;
+      const uint column = min((uint)x, columns - 1), row = min((uint)y, rows - 1);
+      const uint back = facing > 0 ? columns * rows : 0;  // seen from behind
+      texel[i] = face.x + back + row * columns + column;
+      texel_place[i] = (uint)((x - (float)column) * TEXEL_FRACTIONS) | (uint)((y - (float)row) * TEXEL_FRACTIONS) << 16;
+    }
+  }
+#endif
+#ifdef REST_POINT
+  if (is_mesh) {
+    const float3 origin = rest_vertex(corners.a, blocks, rest_x, rest_y, rest_z);
+    const float3 u = rest_vertex(corners.b, blocks, rest_x, rest_y, rest_z) - origin;
+    const float3 v = rest_vertex(corners.c, blocks, rest_x, rest_y, rest_z) - origin;
+    const float3 point = origin + place.x * u + place.y * v;
+    float3 normal = cross(u, v);
+    normal *= turn * rsqrt(fmax(dot(normal, normal), 1e-37f));
+    rest_position_x[i] = point.x;
+    rest_position_y[i] = point.y;
+    rest_position_z[i] = point.z;
+    rest_normal_x[i] = normal.x;
+    rest_normal_y[i] = normal.y;
+    rest_normal_z[i] = normal.z;
   }
 #endif
 }

@@ -163,7 +163,7 @@ struct EnvironmentSource {
 
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
-  std::string tree = "sphere-cap";               // sphere-cap, ellipsoid-cap, reeves-blau, ambient, none
+  std::string tree = "sphere-cap";               // sphere-cap, ellipsoid-cap, reeves-blau, crown-field, crown-baked, ambient, none
   std::string grass = "grass-height";            // grass-height, ambient, none
   std::string crowns = "solid-angle-cosine";     // how crowns shade others: solid-angle, -exact, -cosine, none
   std::string occluders = "solid-angle-cosine";  // the same for moving occluders

@@ -30,6 +30,8 @@ std::vector<PrototypeStart> upload_prototypes(Device& device, const World& world
   VertexBlocks all;
   std::vector<std::uint32_t> a, b, c;
   std::vector<PrototypeStart> starts;
+  const std::vector<std::uint32_t> run_starts = first_triangles(world);
+  std::size_t run_number = 0;
   for (const Prototype& prototype : world.prototypes) {
     PrototypeStart& start = starts.emplace_back();
     start.block = static_cast<std::uint32_t>(all.x.size() / vertex_block);
@@ -42,14 +44,13 @@ std::vector<PrototypeStart> upload_prototypes(Device& device, const World& world
     append(all.flutter_z, vertices.flutter_z);
     append(all.flutter_phase, vertices.flutter_phase);
     for (const TriangleRun& run : prototype.runs) {
-      start.run_triangle.push_back(static_cast<std::uint32_t>(a.size()));
+      start.run_triangle.push_back(run_starts[run_number++]);
       for (std::size_t i = 3 * std::size_t{run.first}; i < 3 * (std::size_t{run.first} + run.count); i += 3) {
         a.push_back(prototype.triangles[i]);
         b.push_back(prototype.triangles[i + 1]);
         c.push_back(prototype.triangles[i + 2]);
       }
-      const std::size_t padded = (a.size() + triangles_per_chunk - 1) / triangles_per_chunk * triangles_per_chunk;
-      for (std::vector<std::uint32_t>* index : {&a, &b, &c}) index->resize(padded, 0);  // no area, no pixels
+      for (std::vector<std::uint32_t>* index : {&a, &b, &c}) index->resize(run_starts[run_number], 0);  // no area
     }
   }
   geometry.rest = {upload(device, all.x, "rest vertices"),           upload(device, all.y, "rest vertices"),
@@ -153,6 +154,15 @@ void check_sizes(const World& world) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> first_triangles(const World& world) {
+  std::vector<std::uint32_t> starts{0};
+  for (const Prototype& prototype : world.prototypes)
+    for (const TriangleRun& run : prototype.runs)
+      starts.push_back(starts.back() +
+                       (run.count + triangles_per_chunk - 1) / triangles_per_chunk * triangles_per_chunk);
+  return starts;
+}
 
 std::vector<std::uint32_t> first_limbs(const World& world) {
   std::vector<std::uint32_t> starts;

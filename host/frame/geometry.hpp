@@ -32,6 +32,10 @@ struct Geometry {
 /// more than 2^32 triangle slots.
 Geometry upload_geometry(Device& device, const World& world);
 
+/// For every run of every prototype the entry of TriangleTables::index_a where it starts: runs are padded to whole
+/// chunks. After the last run of the last prototype comes one more element, the number of entries.
+std::vector<std::uint32_t> first_triangles(const World& world);
+
 /// Number of limbs before each instance's own, in the order of World::instances (as Pose::first_limb).
 std::vector<std::uint32_t> first_limbs(const World& world);
 

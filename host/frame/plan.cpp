@@ -37,7 +37,8 @@ void require_known(const char* key, const std::string& name, std::initializer_li
 }
 
 void check_names(const Methods& methods) {
-  require_known("tree", methods.tree, {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"});
+  require_known("tree", methods.tree,
+                {"sphere-cap", "ellipsoid-cap", "reeves-blau", "crown-field", "crown-baked", "ambient", "none"});
   require_known("grass", methods.grass, {"grass-height", "ambient", "none"});
   const auto solid_angles = {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
   require_known("crowns", methods.crowns, solid_angles);
@@ -90,6 +91,11 @@ Plan make_plan(const World& world, const Methods& methods) {
 
 Plan make_visibility_plan(const World* world, const Methods& methods) {
   check_names(methods);
+  if (methods.tree == "crown-baked")
+    throw Error(
+        ErrorKind::invalid_input,
+        "methods.tree: crown-baked looks values up by triangle, and planes that another program rendered do not "
+        "tell theirs; allowed for them: every other method, crown-field for one");
   Plan plan;
   Contents contents = world ? contents_of(*world) : Contents{};
   contents.bodies_beside_crowns = true;  // in the planes, which somebody else rendered

@@ -67,11 +67,16 @@ void FrameRunner::Impl::choose(const Methods& methods) {
   plan = make_plan(world, methods);
   const auto width = static_cast<std::size_t>(world.scene.image.width);
   const auto height = static_cast<std::size_t>(world.scene.image.height);
-  const bool grass_height = plan.has("grass-height");
+  ResolvedPlanes resolved;
+  resolved.grass_height = plan.has("grass-height");
+  resolved.rest_point = plan.has("crown-field");
+  resolved.texel = plan.has("crown-baked");
   visibility.reset();  // first free the old methods' programs and planes
   resolve.reset();
-  planes = allocate_planes(device, width, height, grass_height);
-  resolve.emplace(device, grass_height, device.info().atomic64);
+  planes = allocate_planes(device, width, height, resolved.grass_height);
+  if (resolved.rest_point) allocate_rest_planes(device, planes);
+  if (resolved.texel) allocate_texel_planes(device, planes);
+  resolve.emplace(device, resolved, device.info().atomic64);
   visibility.emplace(device, &world, methods, plan, width, height);
 }
 
@@ -88,8 +93,9 @@ void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
                       range.first_vertex, geometry.posed);
   }
   rasterise->run(geometry.triangles, geometry.posed, camera, visible);
-  resolve->run(visible, geometry.triangles, geometry.posed, geometry.blades, camera, static_cast<float>(-pose.eye.z),
-               planes);
+  const RestGeometry rest{geometry.blades, static_cast<float>(-pose.eye.z), &geometry.rest, &geometry.blocks,
+                          visibility->baked_faces()};
+  resolve->run(visible, geometry.triangles, geometry.posed, rest, camera, planes);
 }
 
 FrameRunner::FrameRunner(Device& device, const World& world) : impl_(std::make_unique<Impl>(device, world)) {}

@@ -2,6 +2,7 @@
 #include <limits>
 #include <optional>
 
+#include "host/frame/crown_bakes.hpp"
 #include "host/frame/read_back.hpp"
 #include "host/frame/runner.hpp"
 #include "host/frame/visibility.hpp"
@@ -69,6 +70,7 @@ void shade_planes(Device& device, const World* world, const Methods& methods, do
   FragmentPlanes planes = upload_planes(device, frame, eye);
   const OwnerTables owners = upload_owners(device, frame.owners);
   CheckFragmentsPass(device).run(planes);
+  if (plan.has("crown-field")) map_back_rigidly(device, *world, frame, planes);
   VisibilityPasses passes(device, world, usable, plan, static_cast<std::size_t>(frame.width),
                           static_cast<std::size_t>(frame.height));
   const glm::dvec3 camera = glm::dvec3(glm::inverse(frame.world_to_camera)[3]);

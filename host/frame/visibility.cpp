@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "host/frame/crown_bakes.hpp"
 #include "host/frame/crown_records.hpp"
 #include "host/passes/ambient.hpp"
 #include "host/passes/combine.hpp"
@@ -39,6 +40,18 @@ struct SphereShading {
   Table<ShadingSphere> spheres;
 };
 
+/// `crown-field`: its pass and the fields of this world.
+struct FieldShading {
+  CrownFieldPass pass;
+  CrownFieldTables fields;
+};
+
+/// `crown-baked`: its pass and the faces of this world.
+struct BakedShading {
+  CrownBakedPass pass;
+  CrownBakedTables tables;
+};
+
 using TreePass = std::variant<SphereCapPass, EllipsoidCapPass, ReevesBlauPass>;
 
 std::optional<TreePass> tree_pass(Device& device, const Plan& plan) {
@@ -72,6 +85,8 @@ struct VisibilityPasses::Impl {
   std::optional<GroundCoverTable> cover;
   std::optional<AmbientPass> ambient;
   std::optional<TreePass> tree;
+  std::optional<FieldShading> field;
+  std::optional<BakedShading> baked;
   std::optional<GrassHeightPass> grass;
   std::optional<OpenDomePass> dome;
   std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
@@ -94,7 +109,9 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
     ambient.emplace(device);
     add_term("ambient");
   }
-  if (tree) add_term(methods.tree);
+  if (plan.has("crown-field")) field = {CrownFieldPass(device), upload_crown_fields(device, *world)};
+  if (plan.has("crown-baked")) baked = {CrownBakedPass(device), upload_crown_baked(device, *world)};
+  if (tree || field || baked) add_term(methods.tree);
   if (plan.has("grass-height")) {
     grass.emplace(device);
     add_term("grass-height");
@@ -126,6 +143,8 @@ void VisibilityPasses::Impl::run_own_models(const Pose* pose, const OwnerTables&
     crowns.write(device, crown_records(*pose, methods.tree), "crowns");
     std::visit([&](auto& pass) { pass.run(planes, owners, crowns.buffer(), terms.at(methods.tree)); }, *tree);
   }
+  if (field) field->pass.run(planes, field->fields, terms.at(methods.tree));
+  if (baked) baked->pass.run(planes, baked->tables.texels, terms.at(methods.tree));
   if (grass) grass->run(planes, owners, terms.at("grass-height"));
   if (dome) dome->run(planes, terms.at("open-dome"));
 }
@@ -141,12 +160,13 @@ void VisibilityPasses::Impl::run_spheres(const Pose& pose, const OwnerTables& ow
 VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
   VisibilityTerms all;
   all.ambient = term("ambient");
-  all.tree = tree ? term(methods.tree) : nullptr;
+  all.tree = tree || field || baked ? term(methods.tree) : nullptr;
   all.grass = term("grass-height");
   all.dome = term("open-dome");
   for (const SphereShading& shading : shadings) (shading.crowns ? all.crowns : all.occluders) = term(shading.method);
-  // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md).
-  if (grass) all.horizon_classes = class_bit(SurfaceClass::blade);
+  // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md); bakes are traced under the scene's sky.
+  if (grass) all.horizon_classes |= class_bit(SurfaceClass::blade);
+  if (field || baked) all.horizon_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
   return all;
 }
 
@@ -164,6 +184,9 @@ void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, Fragment
   if (impl_->environment) impl_->environment->run(planes, owners, impl_->visibility, nullptr, eye);
 }
 
+const Buffer<std::array<std::uint32_t, 2>>* VisibilityPasses::baked_faces() const {
+  return impl_->baked ? &impl_->baked->tables.faces : nullptr;
+}
 const Buffer<float>& VisibilityPasses::visibility() const { return impl_->visibility; }
 const std::map<std::string, Buffer<float>>& VisibilityPasses::terms() const { return impl_->terms; }
 const EnvironmentLight* VisibilityPasses::environment() const {

@@ -1,5 +1,7 @@
 // The visibility passes of a plan, on planes that are on the device already: own model, dome, spheres, combine.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -23,6 +25,8 @@ class VisibilityPasses {
   /// Shades `planes`; `pose` is null exactly when the world is. `eye`: the camera in the planes' coordinates, m.
   void run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes, glm::vec3 eye = glm::vec3(0));
 
+  /// What resolve must know of each face (`crown-baked`); null: nothing.
+  const Buffer<std::array<std::uint32_t, 2>>* baked_faces() const;
   /// V_c, one element per padded fragment.
   const Buffer<float>& visibility() const;
   /// Each method's own plane, by the name users type.

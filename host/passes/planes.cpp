@@ -44,6 +44,16 @@ FragmentPlanes allocate_planes(Device& device, std::size_t width, std::size_t he
   return planes;
 }
 
+void allocate_rest_planes(Device& device, FragmentPlanes& planes) {
+  for (auto* group : {&planes.rest_position, &planes.rest_normal})
+    for (Buffer<float>& plane : *group) plane = filled(device, planes.padded_fragments, 0.0f, "rest point");
+}
+
+void allocate_texel_planes(Device& device, FragmentPlanes& planes) {
+  planes.texel = filled(device, planes.padded_fragments, 0xffffffffu, "texel");
+  planes.texel_place = filled(device, planes.padded_fragments, 0u, "texel place");
+}
+
 OwnerTables upload_owners(Device& device, std::span<const Owner> owners) {
   if (owners.empty()) throw Error(ErrorKind::unexpected, "owner table: 0 rows, at least the background is needed");
   std::vector<std::int32_t> crown, group;

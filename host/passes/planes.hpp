@@ -4,6 +4,7 @@
 // `fragment_block`, so that a work-item of any width (W = 1 to 16) and a work-group of any tile has memory of its own.
 // Passes compute the padding too; its values mean nothing. Rows of the owner table are clamped in the kernels.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,10 +33,22 @@ struct FragmentPlanes {
   Buffer<std::uint32_t> owner;                       // row of the owner table; 0: background
   Buffer<std::uint32_t> validity;                    // bit flags of sim/frame.hpp; passes add theirs
   Buffer<float> height_above_root, blade_length;     // m; of grass, else 0; empty when no planned pass reads them
+  // Where a mesh fragment and its face normal (turned like `normal`) were at rest; prototype frame, m; else 0. Empty
+  // when no planned pass reads them.
+  std::array<Buffer<float>, 3> rest_position, rest_normal;
+  // Texel of the visible face and the place in it (kernels/shared/crown_baked.h). Empty when no planned pass reads
+  // them.
+  Buffer<std::uint32_t> texel, texel_place;
 };
 
 /// Planes of `width` x `height` fragments, all background. `grass`: with height_above_root and blade_length.
 FragmentPlanes allocate_planes(Device& device, std::size_t width, std::size_t height, bool grass);
+
+/// Adds rest_position and rest_normal, all 0.
+void allocate_rest_planes(Device& device, FragmentPlanes& planes);
+
+/// Adds texel and texel_place: no fragment has one.
+void allocate_texel_planes(Device& device, FragmentPlanes& planes);
 
 /// What each owner is, by row; all of one size. Row 0 is the background.
 struct OwnerTables {

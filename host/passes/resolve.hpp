@@ -7,17 +7,33 @@
 
 namespace understory {
 
+/// Which planes are written beside those that every pass may read.
+struct ResolvedPlanes {
+  bool grass_height = false;  // height_above_root and blade_length
+  bool rest_point = false;    // rest_position and rest_normal
+  bool texel = false;         // texel and texel_place
+};
+
+/// What the posed triangles were made from; buffers that no chosen plane needs may be empty.
+struct RestGeometry {
+  const RestBlades& blades;
+  float root_offset_z = 0;  // added to blade roots to make them camera-relative, m
+  const RestVertices* vertices = nullptr;
+  const Buffer<PosedBlock>* blocks = nullptr;
+  const Buffer<std::array<std::uint32_t, 2>>* faces = nullptr;  // CrownBakedTables::faces
+};
+
 class ResolvePass {
  public:
-  /// `grass_height`: also write height_above_root and blade_length of the planes. `wide_atomics`: as the visibility
-  /// buffer was rasterised.
-  ResolvePass(Device& device, bool grass_height, bool wide_atomics);
-  /// `root_offset_z`: added to blade roots to make them camera-relative, m.
+  /// `wide_atomics`: as the visibility buffer was rasterised.
+  ResolvePass(Device& device, const ResolvedPlanes& write, bool wide_atomics);
+  /// `planes` hold what was chosen. `rest.vertices` and `rest.blocks` are needed for rest_point only,
+  /// `rest.faces` for texel only.
   void run(const VisibilityBuffer& visible, const TriangleTables& triangles, const PosedVertices& posed,
-           const RestBlades& blades, const CameraView& camera, float root_offset_z, FragmentPlanes& planes);
+           const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes);
 
  private:
-  bool grass_height_;
+  ResolvedPlanes write_;
   Kernel kernel_;
 };
 

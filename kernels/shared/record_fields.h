@@ -1,6 +1,7 @@
 // The fields of every record that host and device share, for the test that compares how host and device lay them out.
 #ifndef UNDERSTORY_RECORD_FIELDS_H
 #define UNDERSTORY_RECORD_FIELDS_H
+#include "kernels/shared/crown_field.h"
 #include "kernels/shared/grid_record.h"
 #include "kernels/shared/ground_cover.h"
 #include "kernels/shared/records.h"
@@ -27,6 +28,9 @@
   field(CrownRecord, centre_x) field(CrownRecord, centre_y) field(CrownRecord, centre_z)                            \
   field(CrownRecord, alpha_rho) field(CrownRecord, to_unit) field(CrownRecord, volume_scale)                        \
   field(CrownRecord, ambient) field(CrownRecord, extinction) field(CrownRecord, padding_) record(CrownRecord)    \
+  field(CrownFieldGrid, low_x) field(CrownFieldGrid, low_y) field(CrownFieldGrid, low_z)                            \
+  field(CrownFieldGrid, cells_per_metre) field(CrownFieldGrid, columns) field(CrownFieldGrid, rows)                 \
+  field(CrownFieldGrid, layers) field(CrownFieldGrid, first_cell) record(CrownFieldGrid)                            \
   field(GroundCoverGrid, low_x) field(GroundCoverGrid, low_y) field(GroundCoverGrid, cells_per_metre_x)             \
   field(GroundCoverGrid, cells_per_metre_y) field(GroundCoverGrid, columns) field(GroundCoverGrid, rows)            \
   field(GroundCoverGrid, padding_) record(GroundCoverGrid)                                                          \

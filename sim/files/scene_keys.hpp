@@ -296,7 +296,9 @@ void keys(Archive& a, EnvironmentSource& environment) {
 
 template <class Archive>
 void keys(Archive& a, Methods& methods) {
-  a.word("tree", methods.tree, {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"}, "within a crown");
+  a.word("tree", methods.tree,
+         {"sphere-cap", "ellipsoid-cap", "reeves-blau", "crown-field", "crown-baked", "ambient", "none"},
+         "within a crown");
   a.word("grass", methods.grass, {"grass-height", "ambient", "none"}, "among blades");
   a.word("crowns", methods.crowns, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"},
          "how crowns shade others");

@@ -94,6 +94,34 @@ TEST(Plan, WithoutPlantsHasNoCrownPass) {
   EXPECT_THAT(taken.passes, Contains("solid-angle-cosine")) << "of the occluders";
 }
 
+TEST(Plan, KeepsRestPointsOnlyForTheFieldThatReadsThem) {
+  Scene scene = meadow_view();
+  const Taken without = render_one(scene);
+  EXPECT_THAT(without.built, Not(Contains("crown_field")));
+  scene.methods.tree = "crown-field";
+  const Taken with = render_one(scene);
+  expect_as_planned(with);
+  EXPECT_THAT(with.built, Not(Contains("sphere_cap")));
+  // Six planes of rest position and normal, and a field for each of two species.
+  EXPECT_GE(with.bytes, without.bytes + 6 * with.frame.pixels() * sizeof(float));
+  scene.species.clear();
+  scene.plants.clear();
+  const Taken bare = render_one(scene);
+  expect_as_planned(bare);
+  EXPECT_THAT(bare.built, Not(Contains("crown_field")));
+}
+
+TEST(Plan, KeepsTexelsOnlyForTheBakeThatReadsThem) {
+  Scene scene = meadow_view();
+  const Taken without = render_one(scene);
+  EXPECT_THAT(without.built, Not(Contains("crown_baked")));
+  scene.methods.tree = "crown-baked";
+  const Taken with = render_one(scene);
+  expect_as_planned(with);
+  EXPECT_THAT(with.built, Not(Contains("sphere_cap")));
+  EXPECT_GE(with.bytes, without.bytes + 2 * with.frame.pixels() * sizeof(std::uint32_t));
+}
+
 TEST(Plan, WithoutOccludersHasOnePassForCrowns) {
   Scene scene = meadow_view();
   scene.occluders.clear();

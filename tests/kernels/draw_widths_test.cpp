@@ -92,7 +92,7 @@ Frame draw(Device& device, Geometry& geometry, int lanes, bool wide_atomics) {
   }
   FragmentPlanes planes =
       allocate_planes(device, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), true);
-  ResolvePass(device, true, wide_atomics).run(visible, t, posed, geometry.blades, camera, 0, planes);
+  ResolvePass(device, {.grass_height = true}, wide_atomics).run(visible, t, posed, {geometry.blades}, camera, planes);
   Frame frame;
   frame.width = image.width;
   frame.height = image.height;

@@ -38,8 +38,8 @@ Picture draw(const std::vector<glm::vec3>& vertices, const std::vector<std::uint
   RasterisePass(device, true, false, wide_atomics).run(geometry.triangles, geometry.posed, picture.camera, visible);
   FragmentPlanes planes =
       allocate_planes(device, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), false);
-  ResolvePass(device, false, wide_atomics)
-      .run(visible, geometry.triangles, geometry.posed, geometry.blades, picture.camera, 0, planes);
+  ResolvePass(device, {}, wide_atomics)
+      .run(visible, geometry.triangles, geometry.posed, {geometry.blades}, picture.camera, planes);
   picture.owner = planes.owner.read();
   picture.depth = planes.depth.read();
   picture.x = planes.position_x.read(), picture.y = planes.position_y.read(), picture.z = planes.position_z.read();
