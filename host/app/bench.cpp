@@ -97,18 +97,7 @@ int bench(BenchCommand& command) {
   return wrong > 0 ? 1 : 0;
 }
 
-/// Errors instead of times; each row is told as soon as its scene is done.
-int bench_accuracy(BenchCommand& command) {
-  use_threads(command.device);
-  AccuracyOptions& options = command.accuracy_options;
-  options.device = command.device.device;
-  options.filter = command.bench.filter;
-  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
-  const char* data = std::getenv("UNDERSTORY_DATA");
-  if (!data || !*data) throw Error(ErrorKind::usage, "--accuracy needs the data folder: set UNDERSTORY_DATA to it");
-  options.data = data;
-  const AccuracyReport report = measure_accuracy(options);
-  if (command.accuracy != "-") write_file_atomically(command.accuracy, accuracy_markdown(report));
+void print_accuracy(const AccuracyReport& report) {
   fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}\n", "scene", "setting", "surface", "method", "pixels",
              "RMSE", "bias", "log", "noise", "constant");
   for (const AccuracyRow& row : report.rows)
@@ -124,6 +113,24 @@ int bench_accuracy(BenchCommand& command) {
   for (const CanopyTruth& canopy : report.canopies)
     fmt::print("canopy LAI {:<3} {:.5f} +- {:.5f}, closed form {:.5f}\n", canopy.leaf_area_index, canopy.traced,
                canopy.standard_error, canopy.closed_form);
+}
+
+/// Errors instead of times.
+int bench_accuracy(BenchCommand& command) {
+  use_threads(command.device);
+  AccuracyOptions& options = command.accuracy_options;
+  options.device = command.device.device;
+  options.filter = command.bench.filter;
+  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
+  const char* data = std::getenv("UNDERSTORY_DATA");
+  if (!data || !*data) throw Error(ErrorKind::usage, "--accuracy needs the data folder: set UNDERSTORY_DATA to it");
+  options.data = data;
+  const AccuracyReport report = measure_accuracy(options);
+  if (command.accuracy != "-") write_file_atomically(command.accuracy, accuracy_markdown(report));
+  if (command.json)
+    fmt::print("{}\n", accuracy_json(report).dump(2));
+  else
+    print_accuracy(report);
   for (const std::string& name : report.unknown) spdlog::warn("there is no method '{}' in this build", name);
   return 0;
 }

@@ -45,6 +45,50 @@ Json bench_json(const BenchReport& report) {
   return {{"device", device_json(report.device)}, {"roofs", report.roofs}, {"results", results}};
 }
 
+Json errors_json(const ErrorStatistics& errors) {
+  Json json = {{"pixels", errors.pixels},
+               {"rmse", errors.rmse},
+               {"rmse_denoised", errors.rmse_denoised},
+               {"mae", errors.mae},
+               {"bias", errors.bias},
+               {"max", errors.max},
+               {"p95", errors.p95},
+               {"log_mae", errors.log_mae},
+               {"reference_mean", errors.reference_mean},
+               {"best_constant_rmse", errors.best_constant}};
+  if (errors.inside >= 0) {
+    json["inside_interval"] = errors.inside;
+    json["truth_noise"] = errors.truth_noise;
+  }
+  return json;
+}
+
+Json accuracy_json(const AccuracyReport& report) {
+  Json rows = Json::array(), truth = Json::array(), canopies = Json::array();
+  for (const AccuracyRow& row : report.rows)
+    rows.push_back({{"scene", row.scene},
+                    {"setting", row.setting},
+                    {"surface", row.surface},
+                    {"method", row.method},
+                    {"errors", errors_json(row.errors)}});
+  for (const TruthRow& row : report.truth)
+    truth.push_back({{"scene", row.scene},
+                     {"setting", row.setting},
+                     {"rays_per_s", row.rays_per_s},
+                     {"rays", row.rays},
+                     {"fragments", row.fragments},
+                     {"inside", row.inside},
+                     {"tenth_inside", row.tenth_inside},
+                     {"tenth_fragments", row.tenth_fragments}});
+  for (const CanopyTruth& canopy : report.canopies)
+    canopies.push_back({{"leaf_area_index", canopy.leaf_area_index},
+                        {"traced", canopy.traced},
+                        {"standard_error", canopy.standard_error},
+                        {"closed_form", canopy.closed_form}});
+  return {{"device", report.device}, {"rays", report.rays},  {"rows", rows},
+          {"truth", truth},          {"canopies", canopies}, {"unknown", report.unknown}};
+}
+
 std::vector<BenchResult> read_bench_results(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw Error(ErrorKind::input_output, file.string() + ": cannot be read");

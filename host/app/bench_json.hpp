@@ -4,12 +4,19 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "bench/accuracy.hpp"
 #include "bench/report.hpp"
 
 namespace understory {
 
 /// Keys as in DESIGN.md, "What machines read", and wall_ms, cold_ms, plane_share, max_error beside them.
 nlohmann::ordered_json bench_json(const BenchReport& report);
+
+/// Keys as in `compare --json`.
+nlohmann::ordered_json errors_json(const ErrorStatistics& errors);
+
+/// {device, rays, rows [{scene, setting, surface, method, errors}], truth, canopies, unknown} of `bench --accuracy`.
+nlohmann::ordered_json accuracy_json(const AccuracyReport& report);
 
 /// Names, times and verdicts of the results in a file that bench_json wrote. Throws Error(input_output) for a file that
 /// cannot be read, Error(invalid_input) for one that is something else.

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bench/compare_frames.hpp"
+#include "host/app/bench_json.hpp"
 #include "host/app/commands.hpp"
 #include "sim/error.hpp"
 #include "viz/exr/frame_exr.hpp"
@@ -41,25 +42,6 @@ std::string channels_of(const Frame& frame) {
   std::string names = "Y";
   for (const auto& [name, plane] : frame.terms) names += " " + name;
   return names;
-}
-
-nlohmann::ordered_json to_json(const ErrorStatistics& errors) {
-  nlohmann::ordered_json json = {{"pixels", errors.pixels},
-                                 {"rmse", errors.rmse},
-                                 {"rmse_denoised", errors.rmse_denoised},
-                                 {"mae", errors.mae},
-                                 {"bias", errors.bias},
-                                 {"max", errors.max},
-                                 {"p95", errors.p95},
-                                 {"log_mae", errors.log_mae},
-                                 {"mean", errors.reference_mean + errors.bias},
-                                 {"reference_mean", errors.reference_mean},
-                                 {"best_constant_rmse", errors.best_constant}};
-  if (errors.inside >= 0) {
-    json["inside_interval"] = errors.inside;
-    json["truth_noise"] = errors.truth_noise;
-  }
-  return json;
 }
 
 void print_line(const std::string& name, const ErrorStatistics& errors) {
@@ -112,12 +94,12 @@ int compare(const CompareOptions& options) {
   if (!options.difference.empty()) write_difference(options.difference, value, comparison);
   const bool over = options.max_rmse && !(comparison.all.rmse <= *options.max_rmse);
   if (options.json) {
-    nlohmann::ordered_json json = to_json(comparison.all);
+    nlohmann::ordered_json json = errors_json(comparison.all);
     json["ssim"] = comparison.ssim;
     json["log_floor"] = log_floor;
     json["mismatched"] = comparison.mismatched;
     json["classes"] = nlohmann::ordered_json::object();
-    for (const auto& [name, errors] : comparison.classes) json["classes"][name] = to_json(errors);
+    for (const auto& [name, errors] : comparison.classes) json["classes"][name] = errors_json(errors);
     fmt::print("{}\n", json.dump(2));
   } else {
     print(comparison);

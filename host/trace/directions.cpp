@@ -32,16 +32,19 @@ std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
   return x ^ (x * 0x8d22f6e6u);
 }
 
-std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
-  return reverse_bits(laine_karras(reverse_bits(x), seed));
+/// Owen scrambling of a number whose bits are reversed already.
+std::uint32_t scramble_reversed(std::uint32_t reversed, std::uint32_t seed) {
+  return reverse_bits(laine_karras(reversed, seed));
 }
 
-/// Second dimension of Sobol's sequence: the direction numbers are the rows of Pascal's triangle modulo 2.
-std::uint32_t sobol_second(std::uint32_t index) {
-  std::uint32_t value = 0, direction = 0x80000000u;
-  for (; index != 0; index >>= 1, direction ^= direction >> 1)
-    if (index & 1u) value ^= direction;
-  return value;
+/// Second dimension of Sobol's sequence, bits reversed. Its direction numbers are the rows of Pascal's triangle modulo
+/// 2, and a binomial C(k, j) is odd where the bits of j are among those of k (Lucas): a sum over supersets, bit by bit.
+std::uint32_t reversed_sobol_second(std::uint32_t index) {
+  index ^= (index & 0xaaaaaaaau) >> 1;
+  index ^= (index & 0xccccccccu) >> 2;
+  index ^= (index & 0xf0f0f0f0u) >> 4;
+  index ^= (index & 0xff00ff00u) >> 8;
+  return index ^ (index >> 16);
 }
 
 float unit_interval(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
@@ -53,9 +56,9 @@ glm::vec3 about_z(float azimuth, float height, float radius) {
 }  // namespace
 
 glm::vec2 scrambled_sobol(std::uint32_t index, std::uint32_t seed) {
-  const std::uint32_t shuffled = owen_scramble(index, hash(seed));
-  return {unit_interval(owen_scramble(reverse_bits(shuffled), hash(seed ^ 0x9e3779b9u))),
-          unit_interval(owen_scramble(sobol_second(shuffled), hash(seed ^ 0x7f4a7c15u)))};
+  const std::uint32_t shuffled = scramble_reversed(reverse_bits(index), hash(seed));
+  return {unit_interval(scramble_reversed(shuffled, hash(seed ^ 0x9e3779b9u))),
+          unit_interval(scramble_reversed(reversed_sobol_second(shuffled), hash(seed ^ 0x7f4a7c15u)))};
 }
 
 glm::vec3 uniform_sphere(glm::vec2 u) {
