@@ -30,6 +30,10 @@ for kernel in kernels/*.cl; do
     if grep -qE 'UNDERSTORY_ATOMIC64|visibility_buffer' "$kernel"; then
       lint "$kernel" "-DW=$width" -DUNDERSTORY_ATOMIC64
     fi
+    if grep -q QUADRATIC "$kernel"; then
+      for radii in 1 2; do lint "$kernel" "-DW=$width" -DNORMALS -DTHICKNESS "-DRADII=$radii"; done
+      lint "$kernel" "-DW=$width" -DQUADRATIC -DTHICKNESS
+    fi
     if grep -q GRASS_HEIGHT "$kernel"; then lint "$kernel" "-DW=$width" -DGRASS_HEIGHT; fi
   done
 done

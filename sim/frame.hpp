@@ -41,6 +41,7 @@ struct Frame {
   std::vector<Owner> owners;                          // the owner table
   glm::dmat4 world_to_camera{1};          // column vectors; camera looks along -z, y up (OpenGL and Blender)
   double vertical_fov = 0;                // radians; 0: orthographic or unknown
+  double orthographic_height = 0;         // m that the image spans vertically; 0: perspective or unknown
   double near_plane = 0;                  // m
   std::map<std::string, double> pass_ms;  // device time of each pass, for run.json; not written to frame files
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }

@@ -161,12 +161,29 @@ struct EnvironmentSource {
   double gloss = 0;           // half-angle of the cone of sky that occluders mirror, radians; 0: they are matt
 };
 
+/// How the obscurance methods sample the neighbourhood of a fragment (Loos & Sloan 2010).
+struct NearField {
+  int samples = 0;                   // 0: the method's own: 5 lines, 12 points, 1 area
+  double radius = 0.25;              // m, of the ball that is looked at
+  double second_radius = 0;          // m; 0: one radius only
+  std::string radii = "product";     // of two radii: product, minimum
+  std::string falloff = "constant";  // constant, quadratic
+  std::string normals = "buffer";    // buffer, depth (made from it), none
+  double thickness = 0;              // m behind what is seen; 0: no end
+  int blur = 0;                      // radius of the edge-aware blur, pixels; 0: none
+  bool half_resolution = false;
+  int guard = 0;                    // pixels drawn around the image for the samples that leave it
+  std::string combine = "product";  // with the other terms: product, minimum
+};
+
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
-  std::string tree = "sphere-cap";               // sphere-cap, ellipsoid-cap, reeves-blau, crown-field, crown-baked, ambient, none
+  std::string tree = "sphere-cap";  // sphere-cap, ellipsoid-cap, reeves-blau, crown-field, crown-baked, ambient, none
   std::string grass = "grass-height";            // grass-height, ambient, none
   std::string crowns = "solid-angle-cosine";     // how crowns shade others: solid-angle, -exact, -cosine, none
   std::string occluders = "solid-angle-cosine";  // the same for moving occluders
+  std::string near = "none";                     // obscurance-point, obscurance-line, obscurance-area, none
+  NearField near_field = {};                     // of `near`
   double ambient = 0.5;                          // the constant of `ambient`
 };
 

@@ -109,10 +109,10 @@ int occlude(const OccludeOptions& options) {
         fmt::format("scene: {} at {} s; crowns and occluders, but no grass model: the file lacks the blades' lengths",
                     options.scene.file, time));
   } else {
-    attributes.methods = {.tree = "none", .grass = "none", .crowns = "none", .occluders = "none"};
+    attributes.methods = methods_without_scene(options.scene);
     gbuffer.notes.push_back(
-        "scene: none; only the share of the dome above each surface is computed (--scene gives crowns "
-        "and occluders)");
+        "scene: none; only the share of the dome above each surface and the near field are computed (--scene gives "
+        "crowns and occluders)");
   }
   Device device(options.device.device);
   frame.time = time;

@@ -28,6 +28,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool scene_flag
   command.add_option("--crowns", options.crowns, "How crowns shade everything else: solid-angle-cosine, ..., none")
       ->type_name("METHOD");
   command.add_option("--occluders", options.occluders, "The same for moving occluders")->type_name("METHOD");
+  command.add_option("--near", options.near, "Near field from depth and normals: obscurance-line, -point, -area, none")
+      ->type_name("METHOD");
 }
 
 std::vector<std::string> all_overrides(const SceneOptions& options) {
@@ -51,7 +53,14 @@ std::vector<std::string> all_overrides(const SceneOptions& options) {
   add("methods.grass", options.grass);
   add("methods.crowns", options.crowns);
   add("methods.occluders", options.occluders);
+  add("methods.near", options.near);
   return overrides;
+}
+
+Methods methods_without_scene(const SceneOptions& options) {
+  Methods methods = load_methods(all_overrides(options));
+  methods.tree = methods.grass = methods.crowns = methods.occluders = "none";
+  return methods;
 }
 
 Scene load_scene(const SceneOptions& options) { return load_scene(options.file, all_overrides(options)); }

@@ -13,18 +13,21 @@ namespace understory {
 
 struct SceneOptions {
   std::string file;
-  std::vector<std::string> overrides;          // KEY=VALUE as after --set
-  std::string size;                            // WxH
-  std::string tree, grass, crowns, occluders;  // method names; empty: the scene's
+  std::vector<std::string> overrides;                // KEY=VALUE as after --set
+  std::string size;                                  // WxH
+  std::string tree, grass, crowns, occluders, near;  // method names; empty: the scene's
 };
 
-/// SCENE, --set, --size, --tree, --grass, --crowns, --occluders. `scene_flag`: SCENE is the option --scene, not
+/// SCENE, --set, --size, --tree, --grass, --crowns, --occluders, --near. `scene_flag`: SCENE is the option --scene, not
 /// required.
 void add_scene_options(CLI::App& command, SceneOptions& options, bool scene_flag = false);
 
 /// Every option that changes a scene key, as overrides in the order of their strength.
 /// Throws Error(usage) for a size that is not WxH.
 std::vector<std::string> all_overrides(const SceneOptions& options);
+
+/// What images without a scene can be shaded with: the near field alone, and of methods.near* alone.
+Methods methods_without_scene(const SceneOptions& options);
 
 /// Reads the scene with its overrides. Throws Error(invalid_input).
 Scene load_scene(const SceneOptions& options);

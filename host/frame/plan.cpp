@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "host/frame/near_field.hpp"
 #include "sim/error.hpp"
 
 namespace understory {
@@ -43,6 +44,7 @@ void check_names(const Methods& methods) {
   const auto solid_angles = {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
   require_known("crowns", methods.crowns, solid_angles);
   require_known("occluders", methods.occluders, solid_angles);
+  require_known("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"});
 }
 
 void plan_geometry(const Contents& contents, Plan& plan) {
@@ -71,6 +73,7 @@ void plan_visibility(const Contents& contents, const Methods& methods, Plan& pla
   if (crowns != "none")
     plan.passes.push_back({crowns, "solid_angle", crowns == occluders ? "crowns and moving occluders" : "crowns"});
   if (occluders != "none" && occluders != crowns) plan.passes.push_back({occluders, "solid_angle", "moving occluders"});
+  plan_near_field(methods, plan);
   plan.passes.push_back({"combine", "combine", "every frame"});
   if (contents.environment) plan.passes.push_back({"environment", "environment", "environment: map"});
 }

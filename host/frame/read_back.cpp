@@ -5,10 +5,18 @@
 namespace understory {
 namespace {
 
+/// The frame's pixels of a plane with rows of `row_length`, which may have as many pixels more on every side.
 template <typename T>
-std::vector<T> read_first(const Buffer<T>& buffer, std::size_t count) {
-  std::vector<T> values(count);
+std::vector<T> read_image(const Buffer<T>& buffer, std::size_t row_length, const Frame& frame) {
+  const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
+  const std::size_t guard = (row_length - width) / 2;
+  std::vector<T> values(row_length * (height + 2 * guard));
   buffer.read(std::span<T>(values));
+  if (guard == 0) return values;
+  for (std::size_t row = 0; row < height; ++row)
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>((row + guard) * row_length + guard), width,
+                values.begin() + static_cast<std::ptrdiff_t>(row * width));
+  values.resize(width * height);
   return values;
 }
 
@@ -27,27 +35,27 @@ Plane shifted(const Plane& values, double by) {
 
 void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
   const std::size_t count = frame.pixels();
-  frame.owner = read_first(planes.owner, count);
-  frame.validity = read_first(planes.validity, count);
+  const auto read_first = [&](const auto& plane) { return read_image(plane, planes.row_length, frame); };
+  frame.owner = read_first(planes.owner);
+  frame.validity = read_first(planes.validity);
   const Buffer<float>* positions[3] = {&planes.position_x, &planes.position_y, &planes.position_z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Plane& plane = frame.position[axis] = read_first(*positions[axis], count);
+    Plane& plane = frame.position[axis] = read_first(*positions[axis]);
     const double offset = eye[static_cast<int>(axis)];
     for (std::size_t i = 0; i < count; ++i)
       if ((frame.validity[i] & validity::background) == 0) plane[i] = static_cast<float>(plane[i] + offset);
   }
-  frame.normal = {read_first(planes.normal_x, count), read_first(planes.normal_y, count),
-                  read_first(planes.normal_z, count)};
-  frame.depth = read_first(planes.depth, count);
-  if (planes.height_above_root.size() > 0) frame.height_above_root = read_first(planes.height_above_root, count);
+  frame.normal = {read_first(planes.normal_x), read_first(planes.normal_y), read_first(planes.normal_z)};
+  frame.depth = read_first(planes.depth);
+  if (planes.height_above_root.size() > 0) frame.height_above_root = read_first(planes.height_above_root);
 }
 
-void read_visibility(const VisibilityPasses& passes, Frame& frame) {
-  frame.visibility = read_first(passes.visibility(), frame.pixels());
-  for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_first(plane, frame.pixels());
+void read_visibility(const VisibilityPasses& passes, std::size_t row_length, Frame& frame) {
+  frame.visibility = read_image(passes.visibility(), row_length, frame);
+  for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_image(plane, row_length, frame);
   if (const EnvironmentLight* light = passes.environment()) {
     for (std::size_t channel = 0; channel < 3; ++channel)
-      frame.ambient_light[channel] = read_first(light->planes()[channel], frame.pixels());
+      frame.ambient_light[channel] = read_image(light->planes()[channel], row_length, frame);
     frame.sky_mean = light->mean();
   }
 }

@@ -25,6 +25,15 @@ SwaySeries upload_series(Device& device, const ModalSeries& response) {
   return SwaySeries(device, std::span<const std::array<float, 2>>(pairs), "grass sway series");
 }
 
+/// The same camera with so many pixels more on every side.
+CameraView with_guard(CameraView camera, int guard) {
+  camera.width += 2 * guard;
+  camera.height += 2 * guard;
+  camera.centre_x += static_cast<float>(guard);
+  camera.centre_y += static_cast<float>(guard);
+  return camera;
+}
+
 }  // namespace
 
 struct FrameRunner::Impl {
@@ -35,6 +44,7 @@ struct FrameRunner::Impl {
   Device& device;
   const World& world;
   Plan plan;
+  int guard = 0;  // pixels drawn around the image
   Geometry geometry;
   std::vector<SwaySeries> series;  // per World::grass
   Buffer<LimbPose> limbs;
@@ -50,9 +60,6 @@ struct FrameRunner::Impl {
 
 FrameRunner::Impl::Impl(Device& the_device, const World& the_world)
     : device(the_device), world(the_world), geometry(upload_geometry(device, world)) {
-  const auto width = static_cast<std::size_t>(world.scene.image.width);
-  const auto height = static_cast<std::size_t>(world.scene.image.height);
-  visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
   owners = upload_owners(device, world.owners);
   if (geometry.has_mesh()) pose_mesh.emplace(device);
   if (geometry.has_grass()) {
@@ -65,8 +72,11 @@ FrameRunner::Impl::Impl(Device& the_device, const World& the_world)
 
 void FrameRunner::Impl::choose(const Methods& methods) {
   plan = make_plan(world, methods);
-  const auto width = static_cast<std::size_t>(world.scene.image.width);
-  const auto height = static_cast<std::size_t>(world.scene.image.height);
+  guard = methods.near == "none" ? 0 : methods.near_field.guard;
+  const auto width = static_cast<std::size_t>(world.scene.image.width + 2 * guard);
+  const auto height = static_cast<std::size_t>(world.scene.image.height + 2 * guard);
+  if (visible.words.size() != 2 * width * height)
+    visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
   ResolvedPlanes resolved;
   resolved.grass_height = plan.has("grass-height");
   resolved.rest_point = plan.has("crown-field");
@@ -108,7 +118,9 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   const Scene& scene = impl_->world.scene;
   const Pose pose = pose_at(impl_->world, time, scene.camera.position);
   impl_->device.take_pass_times();
-  impl_->draw(pose, camera_view(scene.camera, scene.image, pixel_offset));
+  const CameraView camera = with_guard(camera_view(scene.camera, scene.image, pixel_offset), impl_->guard);
+  impl_->draw(pose, camera);
+  impl_->visibility->see(obscurance_view(camera));
   impl_->visibility->run(&pose, impl_->owners, impl_->planes);
 
   Frame frame;
@@ -125,7 +137,7 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   frame.near_plane = scene.camera.near_plane;
   frame.pass_ms = impl_->device.take_pass_times();
   read_planes(impl_->planes, pose.eye, frame);
-  read_visibility(*impl_->visibility, frame);
+  read_visibility(*impl_->visibility, impl_->planes.row_length, frame);
   return frame;
 }
 

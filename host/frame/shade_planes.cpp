@@ -73,13 +73,14 @@ void shade_planes(Device& device, const World* world, const Methods& methods, do
   if (plan.has("crown-field")) map_back_rigidly(device, *world, frame, planes);
   VisibilityPasses passes(device, world, usable, plan, static_cast<std::size_t>(frame.width),
                           static_cast<std::size_t>(frame.height));
+  if (usable.near != "none") passes.see(obscurance_view(frame));
   const glm::dvec3 camera = glm::dvec3(glm::inverse(frame.world_to_camera)[3]);
   passes.run(pose ? &*pose : nullptr, owners, planes, glm::vec3(camera - eye));
   frame.pass_ms = device.take_pass_times();
   std::vector<std::uint32_t> flags(planes.padded_fragments);
   planes.validity.read(std::span<std::uint32_t>(flags));
   frame.validity.assign(flags.begin(), flags.begin() + static_cast<std::ptrdiff_t>(frame.pixels()));
-  read_visibility(passes, frame);
+  read_visibility(passes, planes.row_length, frame);
 }
 
 }  // namespace understory

@@ -64,7 +64,8 @@ std::optional<TreePass> tree_pass(Device& device, const Plan& plan) {
 }  // namespace
 
 struct VisibilityPasses::Impl {
-  Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan, std::size_t padded);
+  Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan, std::size_t width,
+       std::size_t height);
   Buffer<float>& add_term(const std::string& name) {
     return terms.emplace(name, Buffer<float>(device, padded_fragments, name.c_str())).first->second;
   }
@@ -90,18 +91,20 @@ struct VisibilityPasses::Impl {
   std::optional<GrassHeightPass> grass;
   std::optional<OpenDomePass> dome;
   std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
+  std::optional<NearFieldPasses> near;
+  ObscuranceView view;
   CombinePass combine;
   std::optional<EnvironmentLight> environment;
   Table<CrownRecord> crowns;
 };
 
 VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan,
-                             std::size_t padded)
+                             std::size_t width, std::size_t height)
     : device(the_device),
       world(the_world),
       methods(the_methods),
-      padded_fragments(padded),
-      visibility(device, padded, "visibility"),
+      padded_fragments(padded_fragment_count(width * height)),
+      visibility(device, padded_fragments, "visibility"),
       tree(tree_pass(device, plan)),
       combine(device) {
   if (plan.has("ambient")) {
@@ -129,6 +132,10 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
                         pass.name == methods.occluders,
                         {}});
     add_term(pass.name);
+  }
+  if (methods.near != "none") {
+    near.emplace(device, methods, width, height);
+    add_term(methods.near);
   }
 }
 
@@ -164,6 +171,8 @@ VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
   all.grass = term("grass-height");
   all.dome = term("open-dome");
   for (const SphereShading& shading : shadings) (shading.crowns ? all.crowns : all.occluders) = term(shading.method);
+  all.near = term(methods.near);
+  all.near_is_limit = methods.near_field.combine == "minimum";
   // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md); bakes are traced under the scene's sky.
   if (grass) all.horizon_classes |= class_bit(SurfaceClass::blade);
   if (field || baked) all.horizon_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
@@ -172,14 +181,17 @@ VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
 
 VisibilityPasses::VisibilityPasses(Device& device, const World* world, const Methods& methods, const Plan& plan,
                                    std::size_t width, std::size_t height)
-    : impl_(std::make_unique<Impl>(device, world, methods, plan, padded_fragment_count(width * height))) {}
+    : impl_(std::make_unique<Impl>(device, world, methods, plan, width, height)) {}
 VisibilityPasses::~VisibilityPasses() = default;
 VisibilityPasses::VisibilityPasses(VisibilityPasses&&) noexcept = default;
 VisibilityPasses& VisibilityPasses::operator=(VisibilityPasses&&) noexcept = default;
 
+void VisibilityPasses::see(const ObscuranceView& view) { impl_->view = view; }
+
 void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes, glm::vec3 eye) {
   impl_->run_own_models(pose, owners, planes);
   if (pose) impl_->run_spheres(*pose, owners, planes);
+  if (impl_->near) impl_->near->run(planes, impl_->view, impl_->terms.at(impl_->methods.near));
   impl_->combine.run(planes, owners, impl_->combined_terms(), impl_->visibility);
   if (impl_->environment) impl_->environment->run(planes, owners, impl_->visibility, nullptr, eye);
 }

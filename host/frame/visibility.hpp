@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/frame/environment_light.hpp"
+#include "host/frame/near_field.hpp"
 #include "host/frame/plan.hpp"
 #include "host/passes/planes.hpp"
 #include "sim/pose.hpp"
@@ -22,6 +23,8 @@ class VisibilityPasses {
   VisibilityPasses(VisibilityPasses&&) noexcept;
   VisibilityPasses& operator=(VisibilityPasses&&) noexcept;
 
+  /// The camera that sees the planes, which the near field needs; for every run until the next call.
+  void see(const ObscuranceView& view);
   /// Shades `planes`; `pose` is null exactly when the world is. `eye`: the camera in the planes' coordinates, m.
   void run(const Pose* pose, const OwnerTables& owners, FragmentPlanes& planes, glm::vec3 eye = glm::vec3(0));
 

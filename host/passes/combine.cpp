@@ -9,7 +9,8 @@ void CombinePass::run(const FragmentPlanes& planes, const OwnerTables& owners, c
                       Buffer<float>& visibility) {
   require_planes("combine", planes, visibility);
   // Order of the bits in kernels/combine.cl. A missing term's place is taken by a plane that is not read.
-  const Buffer<float>* order[] = {terms.ambient, terms.tree, terms.grass, terms.crowns, terms.occluders, terms.dome};
+  const Buffer<float>* order[] = {terms.ambient,   terms.tree, terms.grass, terms.crowns,
+                                  terms.occluders, terms.dome, terms.near};
   std::uint32_t present = 0;
   for (std::uint32_t bit = 0; bit < std::size(order); ++bit) {
     if (order[bit] == nullptr) {
@@ -21,8 +22,8 @@ void CombinePass::run(const FragmentPlanes& planes, const OwnerTables& owners, c
   }
   const std::uint32_t items = lanes_.items(planes);
   kernel_.launch(items, lanes_.local_size(), present, *order[0], *order[1], *order[2], *order[3], *order[4], *order[5],
-                 terms.horizon_classes, planes.owner, owners.surface_class, owners.rows(), items, planes.validity,
-                 visibility);
+                 *order[6], static_cast<std::uint32_t>(terms.near_is_limit), terms.horizon_classes, planes.owner,
+                 owners.surface_class, owners.rows(), items, planes.validity, visibility);
 }
 
 }  // namespace understory

@@ -13,7 +13,8 @@ namespace {
 static_assert(VALIDITY_BACKGROUND == validity::background && VALIDITY_NOT_FINITE == validity::not_finite &&
               VALIDITY_NOT_UNIT == validity::not_unit && VALIDITY_OUTSIDE_MODEL == validity::outside_model &&
               VALIDITY_OCCLUDER_TOO_CLOSE == validity::occluder_too_close &&
-              VALIDITY_GRID_BORDER == validity::grid_border);
+              VALIDITY_RADIUS_OUT_OF_RANGE == validity::radius_out_of_range &&
+              VALIDITY_LEFT_IMAGE == validity::left_image && VALIDITY_GRID_BORDER == validity::grid_border);
 
 template <typename T>
 Buffer<T> filled(Device& device, std::size_t count, T value, const char* what) {

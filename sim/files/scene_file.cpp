@@ -53,6 +53,21 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   throw Error(ErrorKind::invalid_input, result.problems.front() + rest);
 }
 
+Methods load_methods(const std::vector<std::string>& overrides) {
+  Document document;
+  document.root = std::make_shared<Node>();
+  document.root->kind = Node::Kind::map;
+  document.sources = {"no scene"};
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  ReadContext context{document, {}, {}, {}};
+  SceneReader reader(context, *document.root, "");
+  Methods methods;
+  reader.record("methods", methods, "");
+  reader.finish();
+  if (!context.problems.empty()) throw Error(ErrorKind::invalid_input, in_order(std::move(context.problems)).front());
+  return methods;
+}
+
 std::vector<std::string> validate_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   try {
     return decode(file, overrides).problems;

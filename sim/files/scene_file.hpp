@@ -16,6 +16,10 @@ namespace understory {
 /// lists.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+/// The methods of a scene that consists of `methods.KEY=VALUE` overrides alone: for images without a scene.
+/// Throws Error(invalid_input).
+Methods load_methods(const std::vector<std::string>& overrides);
+
 /// Everything that is wrong with a scene, in the order of the file, one line each; empty: load_scene accepts it.
 /// Includes files that are missing; what is inside meshes and rasters is checked by their readers.
 std::vector<std::string> validate_scene(const std::filesystem::path& file,

@@ -295,6 +295,25 @@ void keys(Archive& a, EnvironmentSource& environment) {
 }
 
 template <class Archive>
+void keys(Archive& a, NearField& near_field) {
+  a.integer("samples", near_field.samples, 1, 33,
+            "lines: 5, 7, 9, 12, 13, 15, 16; points: 6, 12, 33; areas: 1, or as lines; left out: 5, 12, 1", 0);
+  a.number("radius", near_field.radius, above_zero(1000, "m"), "of the ball around each fragment");
+  a.number("second_radius", near_field.second_radius, optional_above_zero(1000, "m", 0),
+           "of a second ball; left out: none");
+  a.word("radii", near_field.radii, {"product", "minimum"}, "of the two radii");
+  a.word("falloff", near_field.falloff, {"constant", "quadratic"}, "weight over the ball: 1, or 1 - (r/radius)^2");
+  a.word("normals", near_field.normals, {"buffer", "depth", "none"}, "clamp to the tangent plane; from where");
+  a.number("thickness", near_field.thickness, optional_above_zero(1000, "m", 0),
+           "of what is seen; open behind it; left out: no end");
+  a.integer("blur", near_field.blur, 0, 16, "radius of the edge-aware blur, pixels");
+  a.flag("half_resolution", near_field.half_resolution, "every second pixel, then depth-aware upsampling");
+  a.integer("guard", near_field.guard, 0, 1024, "pixels drawn around the image for samples that leave it");
+  a.word("combine", near_field.combine, {"product", "minimum"}, "with the other terms");
+  a.goes_with("second_radius", {"radii"});
+}
+
+template <class Archive>
 void keys(Archive& a, Methods& methods) {
   a.word("tree", methods.tree,
          {"sphere-cap", "ellipsoid-cap", "reeves-blau", "crown-field", "crown-baked", "ambient", "none"},
@@ -304,6 +323,9 @@ void keys(Archive& a, Methods& methods) {
          "how crowns shade others");
   a.word("occluders", methods.occluders, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"},
          "how moving occluders shade others");
+  a.word("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"},
+         "near field, from depth and normals");
+  a.record("near_field", methods.near_field, "how `near` samples");
   a.number("ambient", methods.ambient, zero_to(1), "the constant of method `ambient`");
 }
 

@@ -173,6 +173,30 @@ TEST(Plan, UnderASphereOfSkyHasNoHorizon) {
   EXPECT_FALSE(taken.frame.terms.contains("open-dome"));
 }
 
+TEST(Plan, OfTheNearFieldHoldsWhatItsOptionsAskFor) {
+  Scene scene = meadow_view();
+  const Taken without = render_one(scene);
+  EXPECT_THAT(without.built, Not(Contains(HasSubstr("obscurance"))));
+  scene.methods.near = "obscurance-point";
+  const Taken plain = render_one(scene);
+  expect_as_planned(plain);
+  EXPECT_THAT(plain.built, Contains("obscurance_point"));
+  EXPECT_THAT(plain.built, Not(Contains(HasSubstr("obscurance_blur"))));
+  EXPECT_THAT(plain.built, Not(Contains(HasSubstr("normals_from_depth"))));
+  scene.methods.near = "obscurance-area";
+  const Taken area = render_one(scene);
+  expect_as_planned(area);
+  EXPECT_THAT(area.passes, testing::IsSupersetOf({"depth-moments", "obscurance-area"}));
+  scene.methods.near = "obscurance-line";
+  scene.methods.near_field.blur = 4;
+  scene.methods.near_field.half_resolution = true;
+  scene.methods.near_field.normals = "depth";
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, testing::IsSupersetOf({"obscurance-line", "obscurance-blur", "obscurance-half",
+                                                   "obscurance-upsample", "normals-from-depth"}));
+}
+
 TEST(Plan, RefusesMethodsThatDoNotExist) {
   const World world = build_world(open_ground());
   Methods methods;

@@ -20,7 +20,7 @@ OwnerTables class_owners(Device& device) {
   return upload_owners(device, owners);
 }
 
-constexpr std::size_t term_count = 6, dome = 5;
+constexpr std::size_t term_count = 7, dome = 5, near = 6;
 
 std::vector<TestFragment> mixed_fragments(std::size_t count) {
   std::vector<TestFragment> all;
@@ -40,7 +40,8 @@ float term_value(std::size_t term, std::size_t fragment) {
   return static_cast<float>(random.uniform());
 }
 
-Shaded combine_terms(const std::vector<TestFragment>& fragments, std::uint32_t present, std::uint32_t horizon_classes) {
+Shaded combine_terms(const std::vector<TestFragment>& fragments, std::uint32_t present, std::uint32_t horizon_classes,
+                     bool near_is_limit = false) {
   return shade_everywhere(fragments, [&](Device& device, int lanes, FragmentPlanes& planes, Buffer<float>& visibility) {
     std::array<Buffer<float>, term_count> terms;
     for (std::size_t term = 0; term < term_count; ++term) {
@@ -49,10 +50,12 @@ Shaded combine_terms(const std::vector<TestFragment>& fragments, std::uint32_t p
       terms[term] = Buffer<float>(device, std::span<const float>(values), "term");
     }
     VisibilityTerms all;
-    const Buffer<float>** places[] = {&all.ambient, &all.tree, &all.grass, &all.crowns, &all.occluders, &all.dome};
+    const Buffer<float>** places[] = {&all.ambient,   &all.tree, &all.grass, &all.crowns,
+                                      &all.occluders, &all.dome, &all.near};
     for (std::size_t term = 0; term < term_count; ++term)
       if (present >> term & 1) *places[term] = &terms[term];
     all.horizon_classes = horizon_classes;
+    all.near_is_limit = near_is_limit;
     CombinePass(device, lanes).run(planes, class_owners(device), all, visibility);
   });
 }
@@ -61,7 +64,7 @@ TEST(Combine, IsTheProductOfThePresentTerms) {
   UNDERSTORY_NEEDS_DEVICE();
   const std::uint32_t blades = class_bit(SurfaceClass::blade);
   for (const std::size_t size : odd_sizes)
-    for (const std::uint32_t present : {0u, 0b111111u, 0b100110u, 0b001001u}) {
+    for (const std::uint32_t present : {0u, 0b1111111u, 0b0100110u, 0b1001001u}) {
       const std::vector<TestFragment> fragments = mixed_fragments(size);
       const Shaded shaded = combine_terms(fragments, present, blades);
       for (std::size_t i = 0; i < size; ++i) {
@@ -75,6 +78,16 @@ TEST(Combine, IsTheProductOfThePresentTerms) {
         EXPECT_EQ(shaded.validity[i], fragments[i].validity);
       }
     }
+}
+
+TEST(Combine, TheNearFieldMayBeALimit) {
+  UNDERSTORY_NEEDS_DEVICE();
+  const std::vector<TestFragment> fragments = mixed_fragments(333);
+  const Shaded shaded = combine_terms(fragments, 1u << near | 0b10u, 0, true);
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const bool open = fragments[i].validity & (validity::background | validity::not_finite);
+    EXPECT_EQ(shaded.visibility[i], open ? 1 : std::min(term_value(1, i), term_value(near, i)));
+  }
 }
 
 TEST(Combine, EveryClassMayHoldItsHorizon) {

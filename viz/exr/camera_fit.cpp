@@ -118,6 +118,52 @@ std::optional<FittedCamera> fit_camera(int width, int height, const std::array<P
   return camera;
 }
 
+std::optional<ParallelCamera> fit_parallel_camera(int width, int height, const std::array<Plane, 3>& position,
+                                                  const std::vector<std::uint8_t>& valid) {
+  const std::vector<Sample> samples = take_samples(width, height, position, valid);
+  if (samples.size() < 4) return std::nullopt;
+  glm::dvec3 centroid(0);
+  for (const Sample& sample : samples) centroid += sample.point / static_cast<double>(samples.size());
+  // Pixels are a linear map of points; the smallest one where points of a plane leave a choice.
+  Eigen::MatrixXd equations(static_cast<Eigen::Index>(samples.size()), 4);
+  Eigen::MatrixXd pixels(equations.rows(), 2);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const glm::dvec3 p = samples[i].point - centroid;
+    equations.row(static_cast<Eigen::Index>(i)) << p.x, p.y, p.z, 1;
+    pixels.row(static_cast<Eigen::Index>(i)) << samples[i].pixel.x, samples[i].pixel.y;
+  }
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(equations);
+  decomposition.setThreshold(1e-6);
+  const Eigen::MatrixXd solution = decomposition.solve(pixels);
+  const glm::dvec3 across(solution(0, 0), solution(1, 0), solution(2, 0));
+  const glm::dvec3 downwards(solution(0, 1), solution(1, 1), solution(2, 1));
+  const double scale = glm::length(across), other = glm::length(downwards);  // pixels per metre
+  if (!(scale > 0) || std::abs(other / scale - 1) > 1e-3 ||
+      std::abs(glm::dot(across, downwards)) > 1e-3 * scale * other)
+    return std::nullopt;
+  ParallelCamera camera;
+  camera.error_pixels = (equations * solution - pixels).rowwise().norm().maxCoeff();
+  if (!(camera.error_pixels < 0.5)) return std::nullopt;
+
+  const glm::dvec3 right = across / scale;
+  const glm::dvec3 down = glm::normalize(downwards - glm::dot(downwards, right) * right);
+  const glm::dvec3 forward = glm::cross(right, down);
+  double nearest = 1e300;
+  for (const Sample& sample : samples) nearest = std::min(nearest, glm::dot(sample.point, forward));
+  // The pixel of the camera's axis is the middle of the image.
+  const glm::dvec2 offset =
+      (glm::dvec2(0.5 * width, 0.5 * height) - glm::dvec2(solution(3, 0), solution(3, 1))) / scale;
+  const glm::dvec3 on_axis = centroid + offset.x * right + offset.y * down;
+  const glm::dvec3 rows[3] = {right, -down, -forward};
+  const glm::dvec3 eye = on_axis + (nearest - 1 - glm::dot(on_axis, forward)) * forward;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) camera.world_to_camera[column][row] = rows[row][column];
+    camera.world_to_camera[3][row] = -glm::dot(rows[row], eye);
+  }
+  camera.height = height / scale;
+  return camera;
+}
+
 glm::dvec2 project(const Frame& frame, glm::dvec3 point) {
   const glm::dvec4 seen = frame.world_to_camera * glm::dvec4(point, 1);
   const double focal = 0.5 * frame.height / std::tan(0.5 * frame.vertical_fov);

@@ -23,6 +23,17 @@ struct FittedCamera {
 std::optional<FittedCamera> fit_camera(int width, int height, const std::array<Plane, 3>& position,
                                        const std::vector<std::uint8_t>& valid);
 
+struct ParallelCamera {
+  glm::dmat4 world_to_camera{1};  // as in Frame, a metre before the nearest point
+  double height = 0;              // m from the top to the bottom of the image
+  double error_pixels = 0;        // as FittedCamera
+};
+
+/// The same for an orthographic camera with square pixels. Empty when the positions determine none within half a pixel.
+/// A wall that faces a perspective camera looks the same to it.
+std::optional<ParallelCamera> fit_parallel_camera(int width, int height, const std::array<Plane, 3>& position,
+                                                  const std::vector<std::uint8_t>& valid);
+
 /// Where a frame's camera sees a point, in pixels from the upper left corner.
 glm::dvec2 project(const Frame& frame, glm::dvec3 point);
 

@@ -126,7 +126,7 @@ ChannelRoles resolve_channel_roles(const std::vector<std::string>& channels,
   };
   ChannelRoles roles;
   roles.position = need("position");
-  roles.normal = need("normal");
+  roles.normal = resolve(channels, "normal", chosen).value_or(RoleChannels{});
   const auto want = [&](const std::string& name) -> std::optional<RoleChannels> {
     try {
       return resolve(channels, name, chosen);

@@ -13,7 +13,8 @@ struct RoleChannels {
   std::vector<std::string> names;
 };
 
-/// What a G-buffer may hold. `depth` and `alpha` only mark the background; `owner` is never found by itself.
+/// What a G-buffer may hold; without a normal its names are empty. `depth` and `alpha` only mark the background;
+/// `owner` is never found by itself.
 struct ChannelRoles {
   RoleChannels position, normal;
   std::optional<RoleChannels> depth, alpha, owner;
@@ -22,8 +23,8 @@ struct ChannelRoles {
 
 /// Explicit choices win: role (position, normal, depth, alpha, owner) to layer or channel, in the file's own letters,
 /// for instance {"normal", "Ns"}. Throws Error(usage) for an unknown role or a name that is not in the file, and
-/// Error(invalid_input) when nothing or more than one thing fits; the message lists what there is. Depth and alpha may
-/// be missing, and are left alone when several fit.
+/// Error(invalid_input) when nothing or more than one thing fits; the message lists what there is. Normal,
+/// depth and alpha may be missing; depth and alpha are left alone when several fit.
 ChannelRoles resolve_channel_roles(const std::vector<std::string>& channels,
                                    const std::map<std::string, std::string>& chosen);
 

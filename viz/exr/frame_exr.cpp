@@ -32,11 +32,8 @@ Plane valid_mask(const Frame& frame) {
 }
 
 std::string methods_to_json(const Methods& methods) {
-  return nlohmann::json{{"tree", methods.tree},
-                        {"grass", methods.grass},
-                        {"crowns", methods.crowns},
-                        {"occluders", methods.occluders},
-                        {"ambient", methods.ambient}}
+  return nlohmann::json{{"tree", methods.tree},           {"grass", methods.grass}, {"crowns", methods.crowns},
+                        {"occluders", methods.occluders}, {"near", methods.near},   {"ambient", methods.ambient}}
       .dump();
 }
 
@@ -96,6 +93,7 @@ void write_frame_exr(const std::filesystem::path& path, const Frame& frame, cons
   numbers["understory:frame"] = frame.index;
   numbers["understory:time_s"] = frame.time;
   numbers["understory:vertical_fov_rad"] = frame.vertical_fov;
+  if (frame.orthographic_height > 0) numbers["understory:orthographic_height_m"] = frame.orthographic_height;
   numbers["understory:near_plane_m"] = frame.near_plane;
   vectors["understory:origin"] = frame.origin;
   matrices["worldToCamera"] = flip_z(frame.world_to_camera);
@@ -114,6 +112,8 @@ Frame read_frame_exr(const std::filesystem::path& path) {
   frame.index = static_cast<int>(need(numbers, "understory:frame", path));
   frame.time = need(numbers, "understory:time_s", path);
   frame.vertical_fov = need(numbers, "understory:vertical_fov_rad", path);
+  if (const auto found = numbers.find("understory:orthographic_height_m"); found != numbers.end())
+    frame.orthographic_height = found->second;
   frame.near_plane = need(numbers, "understory:near_plane_m", path);
   frame.origin = need(vectors, "understory:origin", path);
   frame.world_to_camera = need(matrices, "understory:world_to_camera", path);

@@ -12,6 +12,7 @@
 #include "viz/exr/channel_roles.hpp"
 #include "viz/exr/frame_exr.hpp"
 #include "viz/exr/gbuffer_camera.hpp"
+#include "viz/exr/gbuffer_normals.hpp"
 #include "viz/exr/image.hpp"
 
 namespace understory {
@@ -30,7 +31,8 @@ GbufferPlanes read_planes(const std::filesystem::path& path, const ExrHeader& he
   GbufferPlanes result;
   std::size_t next = 0;
   for (Plane& plane : result.position) plane = std::move(planes[next++]);
-  for (Plane& plane : result.normal) plane = std::move(planes[next++]);
+  if (!roles.normal.names.empty())
+    for (Plane& plane : result.normal) plane = std::move(planes[next++]);
   if (roles.depth) result.depth = std::move(planes[next++]);
   if (roles.alpha) result.alpha = std::move(planes[next++]);
   if (roles.owner) result.owner = std::move(planes[next++]);
@@ -41,7 +43,9 @@ std::vector<std::uint8_t> find_surface(const GbufferPlanes& planes) {
   std::vector<std::uint8_t> surface(planes.position[0].size(), 1);
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const glm::vec3 p(planes.position[0][i], planes.position[1][i], planes.position[2][i]);
-    const glm::vec3 n(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i]);
+    const glm::vec3 n = planes.normal[0].empty()
+                            ? glm::vec3(1)
+                            : glm::vec3(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i]);
     const bool open = (!planes.alpha.empty() && planes.alpha[i] == 0) ||
                       (!planes.depth.empty() && !(planes.depth[i] < background_depth)) || n == glm::vec3(0) ||
                       !std::isfinite(p.x + p.y + p.z) || !std::isfinite(n.x + n.y + n.z);
@@ -69,7 +73,8 @@ void guard_precision(const ExrHeader& header, const ChannelRoles& roles, const G
 /// Unit normals to the viewer, depth, validity; zeros where nothing is seen.
 void fill_frame(GbufferPlanes& planes, const std::vector<std::uint8_t>& surface, Gbuffer& result) {
   Frame& frame = result.frame;
-  const glm::dvec3 eye = eye_of(frame.world_to_camera);
+  const glm::dmat4& camera = frame.world_to_camera;
+  const glm::dvec3 eye = eye_of(camera), backwards(camera[0][2], camera[1][2], camera[2][2]);
   frame.depth.assign(frame.pixels(), std::numeric_limits<float>::infinity());
   frame.owner.assign(frame.pixels(), 0);
   frame.validity.assign(frame.pixels(), 0);
@@ -86,7 +91,7 @@ void fill_frame(GbufferPlanes& planes, const std::vector<std::uint8_t>& surface,
         frame.validity[i] |= validity::not_unit;
       }
       n /= length;
-      if (glm::dot(n, eye - p) < 0) {
+      if (glm::dot(n, frame.orthographic_height > 0 ? backwards : eye - p) < 0) {
         ++turned;
         n = -n;
       }
@@ -135,7 +140,7 @@ Gbuffer read_gbuffer(const std::filesystem::path& path, const GbufferOptions& op
       result.notes.push_back(fmt::format("{}: {}", role, fmt::join(channels.names, "/")));
     };
     tell("position", roles.position);
-    tell("normal", roles.normal);
+    if (!roles.normal.names.empty()) tell("normal", roles.normal);
     if (roles.depth) tell("depth (background only)", *roles.depth);
     if (roles.alpha) tell("alpha", *roles.alpha);
     if (roles.owner) tell("owner", *roles.owner);
@@ -150,6 +155,11 @@ Gbuffer read_gbuffer(const std::filesystem::path& path, const GbufferOptions& op
     const auto surface = find_surface(planes);
     guard_precision(header, roles, planes, surface, result.notes);
     settle_camera(header, options, surface, planes, result);
+    if (roles.normal.names.empty()) {
+      result.notes.push_back("normal: none in the file; made from the positions");
+      planes.normal = normals_from_positions(header.width, header.height, planes.position, surface,
+                                             eye_of(result.frame.world_to_camera));
+    }
     fill_frame(planes, surface, result);
     return result;
   } catch (const Error& error) {

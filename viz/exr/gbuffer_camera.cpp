@@ -54,6 +54,7 @@ void settle_camera(const ExrHeader& header, const GbufferOptions& options, const
   Frame& frame = result.frame;
   const auto told = camera_from_header(header.attributes);
   const auto fit = fit_camera(frame.width, frame.height, planes.position, surface);
+  const auto parallel = fit ? std::nullopt : fit_parallel_camera(frame.width, frame.height, planes.position, surface);
   const bool camera_space =
       options.space == GbufferSpace::camera ||
       (options.space == GbufferSpace::automatic && told.has_value() && is_camera_space(told->world_to_camera, fit));
@@ -61,16 +62,27 @@ void settle_camera(const ExrHeader& header, const GbufferOptions& options, const
     frame.vertical_fov = fit->vertical_fov;
     tell_fit(*fit, result.notes);
   }
+  if (parallel) {
+    frame.orthographic_height = parallel->height;
+    result.notes.push_back(
+        fmt::format("orthographic: {:.4g} m from top to bottom, solved from positions within {:.3f} "
+                    "pixels",
+                    parallel->height, parallel->error_pixels));
+  }
   if (told) {
     frame.world_to_camera = told->world_to_camera;
     result.notes.push_back(fmt::format("camera: header worldToCamera{}", told->transposed ? " (column vectors)" : ""));
   } else if (options.camera) {
     frame.world_to_camera = look_at(*options.camera);
     frame.vertical_fov = options.camera->vertical_fov;
+    frame.orthographic_height = 0;
     result.notes.push_back("camera: as given");
   } else if (fit) {
     frame.world_to_camera = fit->world_to_camera;
     result.notes.push_back(fmt::format("camera: solved from positions, within {:.3f} pixels", fit->error_pixels));
+  } else if (parallel) {
+    frame.world_to_camera = parallel->world_to_camera;
+    result.notes.push_back("camera: orthographic, solved from positions, a metre before the nearest");
   } else {
     throw Error(ErrorKind::invalid_input,
                 "no camera in the header, and positions that are few, flat or seen from infinity determine none; "

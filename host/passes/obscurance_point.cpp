@@ -1,0 +1,21 @@
+#include "host/passes/obscurance_point.hpp"
+
+namespace understory {
+
+ObscurancePointPass::ObscurancePointPass(Device& device, const NearField& near_field, const ObscuranceSampleSet& set,
+                                         int lanes)
+    : lanes_(device, lanes),
+      near_field_(near_field),
+      rows_(device, std::span<const ObscuranceRow>(point_rows(set, near_field)), "obscurance points"),
+      kernel_(device, "obscurance_point", "shade_obscurance_point", "obscurance-point",
+              lanes_.option() + obscurance_options(near_field)) {}
+
+void ObscurancePointPass::run(FragmentPlanes& planes, const ObscuranceView& view, Buffer<float>& visibility) {
+  require_view("obscurance-point", planes, view, visibility);
+  const ObscuranceSetting setting = obscurance_setting(view, near_field_);
+  const std::uint32_t items = lanes_.items(planes);
+  kernel_.launch(items, lanes_.local_size(), planes.depth, planes.normal_x, planes.normal_y, planes.normal_z, setting,
+                 rows_, row_count(rows_), items, visibility, planes.validity);
+}
+
+}  // namespace understory

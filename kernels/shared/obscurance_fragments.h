@@ -1,0 +1,90 @@
+// The W fragments of a work-item as receivers, and what the pixels around them show. OpenCL only.
+#ifndef UNDERSTORY_OBSCURANCE_FRAGMENTS_H
+#define UNDERSTORY_OBSCURANCE_FRAGMENTS_H
+
+#include "kernels/shared/obscurance.h"
+#include "kernels/shared/obscurance_setting.h"
+#include "kernels/shared/rotation_pattern.h"
+#include "kernels/shared/validity.h"
+
+typedef struct {
+  real x, y;    // pixel, whole numbers
+  whole turn;   // of the rotation pattern
+} Pixels;
+
+#if W == 1
+#define LANE_NUMBERS 0
+#elif W == 4
+#define LANE_NUMBERS ((int4)(0, 1, 2, 3))
+#elif W == 8
+#define LANE_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#endif
+
+SHARED Pixels pixels_of(uint item, const ObscuranceSetting* setting) {
+  const int first = (int)(item * W);
+  whole y = (whole)(first / setting->width);
+  whole x = (whole)(first % setting->width) + LANE_NUMBERS;
+  for (truth past = x >= (whole)(setting->width); ANY(past); past = x >= (whole)(setting->width)) {
+    x = PICK(past, x - (whole)(setting->width), x);
+    y = PICK(past, y + 1, y);
+  }
+  Pixels at;
+  at.x = TO_REAL(x);
+  at.y = TO_REAL(y);
+  at.turn = pattern_index(x + (whole)(setting->first_x), y + (whole)(setting->first_y));
+  return at;
+}
+
+SHARED Receiver receiver_of(Pixels at, real depth, real normal_x, real normal_y, real normal_z,
+                            const ObscuranceSetting* setting) {
+  const real per_focal = (real)(1.0f / setting->focal);
+  const real x = (at.x + REAL(0.5) - setting->centre_x) * per_focal;
+  const real y = (at.y + REAL(0.5) - setting->centre_y) * per_focal;
+#define COMPONENT(axis) \
+  fma(normal_x, (real)(setting->axis[0]), fma(normal_y, (real)(setting->axis[1]), normal_z * setting->axis[2]))
+  return receiver_at(x, y, depth, COMPONENT(right), COMPONENT(down), COMPONENT(forward), (real)(setting->perspective));
+#undef COMPONENT
+}
+
+/// What is seen some pixels away.
+typedef struct {
+  real x, y;     // of the pixel's centre from the fragment, in the image, radii
+  real depth;    // camera z, m
+  truth inside;  // the pixel is in the image
+} Neighbour;
+
+/// (x, y): radii in the image.
+SHARED Neighbour neighbour_at(global const float* depth, Pixels at, Ball ball, real x, real y,
+                              const ObscuranceSetting* setting) {
+  const real step_x = floor(fma(x, ball.pixels, REAL(0.5))), step_y = floor(fma(y, ball.pixels, REAL(0.5)));
+  const real goal_x = at.x + step_x, goal_y = at.y + step_y;
+  const real last_x = (real)((float)(setting->width - 1)), last_y = (real)((float)(setting->height - 1));
+  const real pixel_x = at_least(at_most(goal_x, last_x), REAL(0.0));
+  const real pixel_y = at_least(at_most(goal_y, last_y), REAL(0.0));
+  const whole index = TO_WHOLE(pixel_y) * (whole)(setting->width) + TO_WHOLE(pixel_x);
+  Neighbour next;
+  next.x = step_x * ball.per_pixel;
+  next.y = step_y * ball.per_pixel;
+  next.depth = GATHER(real, depth, index, );
+  next.inside = (goal_x == pixel_x) & (goal_y == pixel_y);
+  return next;
+}
+
+/// Share of the weights that is open; 1 where no sample said anything.
+SHARED real open_share(real open, real whole_share) {
+  return as_visibility(PICK(whole_share > REAL(1e-6), open / whole_share, REAL(1.0)));
+}
+
+/// Codes 32 and 64 of FORMULAS.md: radius below a pixel or beyond the image; a sample left the image.
+SHARED void flag_samples(global uint* validity, uint item, Ball ball, truth left, truth drawn,
+                         const ObscuranceSetting* setting) {
+  const real longest = (real)((float)max(setting->width, setting->height));
+  const truth in_range = (ball.pixels >= REAL(1.0)) & (ball.pixels <= longest);
+  const truth out_of_range = drawn & (in_range == (truth)(0));
+  if (ANY(out_of_range)) add_validity(validity, item, out_of_range, VALIDITY_RADIUS_OUT_OF_RANGE);
+  if (ANY(left & drawn)) add_validity(validity, item, left & drawn, VALIDITY_LEFT_IMAGE);
+}
+
+#endif

@@ -1,0 +1,175 @@
+// Obscurance in double, by other means than the kernels: points, rays and planes as vectors in space, the angle of the
+// rotation from a table and the library, lengths by clipping intervals, the falloff by Simpson's rule.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "host/passes/obscurance.hpp"
+
+namespace understory::reference {
+
+/// A depth plane and normals (camera axes: right, down, forward) as some camera saw them.
+struct DepthImage {
+  ObscuranceView view;
+  std::vector<double> depth;  // camera z, m; infinity: background
+  std::vector<glm::dvec3> normal;
+  double depth_at(int x, int y) const { return depth[static_cast<std::size_t>(y * view.width + x)]; }
+  glm::dvec3 normal_at(int x, int y) const { return normal[static_cast<std::size_t>(y * view.width + x)]; }
+};
+
+/// Origin and direction (forward component 1) of the ray through a pixel's centre, camera axes.
+struct PixelRay {
+  glm::dvec3 origin{0}, direction{0, 0, 1};
+  glm::dvec3 at(double depth) const { return origin + depth * direction; }
+};
+
+inline PixelRay pixel_ray(const ObscuranceView& view, int x, int y) {
+  const glm::dvec3 across((x + 0.5 - view.centre_x) / view.focal, (y + 0.5 - view.centre_y) / view.focal, 0);
+  if (view.perspective) return {glm::dvec3(0), across + glm::dvec3(0, 0, 1)};
+  return {across, glm::dvec3(0, 0, 1)};
+}
+
+inline double pattern_turn(int x, int y) {
+  constexpr int bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+  return bayer[y & 3][x & 3] / 16.0 - 0.5;
+}
+
+struct Obscurance {
+  double value = 1;
+  double nearest_edge = 1;  // of a sample to the border between two pixels, pixels: what float may round otherwise
+  double doubt = 0;         // share of points that are about as deep as what is seen
+};
+
+/// The ball around a pixel's fragment: its frame, and the neighbour that a point of the disc falls on.
+class Ball {
+ public:
+  Ball(const DepthImage& image, int x, int y, double radius) : image_(image), x_(x), y_(y), radius_(radius) {
+    const PixelRay ray = pixel_ray(image.view, x, y);
+    centre = ray.at(image.depth_at(x, y));
+    sight = glm::normalize(ray.direction);
+    // The rotation that takes the camera's axis to the sight, by the shorter way, takes x and y along.
+    const glm::dvec3 half = glm::normalize(sight + glm::dvec3(0, 0, 1));
+    const auto turned = [&](glm::dvec3 v) { return 2 * glm::dot(v, half) * half - v; };
+    right = -turned(glm::dvec3(1, 0, 0));
+    down = -turned(glm::dvec3(0, 1, 0));
+    normal = image.normal_at(x, y);
+    pixels = image.view.focal * radius / (image.view.perspective ? centre.z : 1);
+  }
+
+  /// What the pixel under the disc's point (x, y) shows.
+  struct Seen {
+    bool inside = false;
+    double depth = 0, plane = 0;  // along the sight, radii
+    bool beyond_plane = false;
+  };
+  Seen look(double x, double y, double& nearest_edge) const {
+    // A point of the disc moved along the fragment's ray to the fragment's own depth, then seen.
+    glm::dvec3 step = radius_ * (x * right + y * down);
+    step -= step.z * pixel_ray(image_.view, x_, y_).direction;
+    const glm::dvec2 offset = glm::dvec2(step) / radius_ * pixels;
+    Seen seen;
+    const glm::dvec2 cell = glm::floor(offset + 0.5);
+    for (int axis = 0; axis < 2; ++axis)
+      nearest_edge = std::min(nearest_edge, 0.5 - std::abs(offset[axis] - cell[axis]));
+    const double there_x = x_ + cell.x, there_y = y_ + cell.y;
+    seen.inside = there_x >= 0 && there_y >= 0 && there_x < image_.view.width && there_y < image_.view.height;
+    if (!seen.inside) return seen;
+    const int column = static_cast<int>(there_x), row = static_cast<int>(there_y);
+    const PixelRay ray = pixel_ray(image_.view, column, row);
+    const double depth = image_.depth_at(column, row);
+    seen.depth = std::isinf(depth) ? 1e6 : glm::dot(ray.at(depth) - centre, sight) / radius_;
+    const double facing = glm::dot(normal, ray.direction);
+    seen.beyond_plane = facing > -1e-3;
+    if (seen.beyond_plane) {
+      seen.plane = 1e6;
+      return seen;
+    }
+    const double hit = glm::dot(centre - ray.origin, normal) / facing;
+    seen.plane = glm::dot(ray.at(hit) - centre, sight) / radius_;
+    return seen;
+  }
+
+  glm::dvec3 centre{0}, sight{0}, right{0}, down{0}, normal{0};
+  double pixels = 0;
+
+ private:
+  const DepthImage& image_;
+  int x_, y_;
+  double radius_;
+};
+
+/// Integral of the falloff over the open part of a line of length 2 half: open in front of `seen`, again from `back`
+/// on, nowhere behind `plane`. Simpson's rule is exact for both falloffs.
+inline double open_line(double half, double seen, double back, double plane, bool quadratic) {
+  const auto falloff = [&](double z) { return quadratic ? half * half - z * z : 1.0; };
+  const auto part = [&](double from, double to) {
+    from = std::clamp(from, -half, half);
+    to = std::clamp(to, -half, half);
+    if (to <= from) return 0.0;
+    return (to - from) / 6 * (falloff(from) + 4 * falloff((from + to) / 2) + falloff(to));
+  };
+  return part(-half, std::min(seen, plane)) + part(std::max(back, -half), plane);
+}
+
+inline Obscurance line_obscurance(const DepthImage& image, int x, int y, const ObscuranceSampleSet& set,
+                                  const NearField& options, double radius) {
+  const Ball ball(image, x, y, radius);
+  const bool quadratic = options.falloff == "quadratic", normals = options.normals != "none";
+  const double angle = 2 * std::numbers::pi * pattern_turn(x, y), c = std::cos(angle), s = std::sin(angle);
+  Obscurance result;
+  double open = 0, flat = 0;
+  for (const ObscuranceSample& sample : set.samples) {
+    const glm::dvec2 p(double{sample.x}, double{sample.y});
+    const double half = std::sqrt(1 - glm::dot(p, p));
+    const double whole = open_line(half, 9, 9, 9, quadratic);
+    const double share = double{quadratic ? sample.quadratic_share : sample.constant_share} / whole;
+    double edge = 1;
+    Ball::Seen seen = ball.look(c * p.x + s * p.y, s * p.x - c * p.y, edge);
+    if (p != glm::dvec2(0)) result.nearest_edge = std::min(result.nearest_edge, edge);
+    if (!seen.inside) continue;
+    const double plane = normals ? seen.plane : 1e6;
+    const double back = options.thickness > 0 ? seen.depth + options.thickness / radius : 1e9;
+    open += share * open_line(half, seen.depth, back, plane, quadratic);
+    flat += share * open_line(half, normals ? plane : 0, 1e9, 1e6, quadratic);
+  }
+  result.value = flat > 1e-6 ? std::clamp(open / flat, 0.0, 1.0) : 1;
+  return result;
+}
+
+inline Obscurance point_obscurance(const DepthImage& image, int x, int y, const ObscuranceSampleSet& set,
+                                   const NearField& options, double radius) {
+  const Ball ball(image, x, y, radius);
+  const bool quadratic = options.falloff == "quadratic", normals = options.normals != "none";
+  const double k = 16 * (pattern_turn(x, y) + 0.5);
+  const double height = (k + 0.5) / 16, turn = 2 * std::numbers::pi * (k * 0.61803399 - 0.5);
+  const double flat = std::sqrt(1 - height * height);
+  const glm::dvec3 mirror(flat * std::cos(turn), flat * std::sin(turn), height);
+  const glm::dvec3 normal(glm::dot(ball.normal, ball.right), glm::dot(ball.normal, ball.down),
+                          glm::dot(ball.normal, ball.sight));
+  Obscurance result;
+  double open = 0, all = 0;
+  for (const ObscuranceSample& sample : set.samples) {
+    glm::dvec3 p = glm::reflect(glm::dvec3(double{sample.x}, double{sample.y}, double{sample.z}), mirror);
+    if (normals && glm::dot(p, normal) < 0) p = glm::reflect(p, normal);
+    const Ball::Seen seen = ball.look(p.x, p.y, result.nearest_edge);
+    if (!seen.inside) continue;
+    const double share = double{quadratic ? sample.quadratic_share : sample.constant_share};
+    double z = p.z;
+    // As far in front of the plane, along the sight, as the point is.
+    if (normals && !seen.beyond_plane) z = seen.plane - 1e-4 - std::abs(glm::dot(p, normal) / normal.z);
+    const double back = options.thickness > 0 ? seen.depth + options.thickness / radius : 1e9;
+    if (z < seen.depth || z > back) open += share;
+    if (std::min(std::abs(z - seen.depth), std::abs(z - back)) < 1e-3) result.doubt += share;
+    all += (normals ? 1 : 0.5) * share;
+  }
+  result.value = all > 1e-6 ? std::clamp(open / all, 0.0, 1.0) : 1;
+  return result;
+}
+
+}  // namespace understory::reference
