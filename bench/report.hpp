@@ -43,7 +43,7 @@ struct BenchReport {
   std::vector<BenchResult> results;
 };
 
-/// Runs all benchmarks that the filter lets through. Throws Error.
+/// Runs all benchmarks that the filter lets through. Throws Error(usage) when there is none.
 BenchReport run_bench(const BenchOptions& options);
 
 /// One name in two reports. `ratio` is new over old median; it counts as a change when the intervals do not overlap.

@@ -4,6 +4,7 @@
 #include "bench/frame.hpp"
 #include "bench/kernels.hpp"
 #include "bench/report.hpp"
+#include "sim/error.hpp"
 
 namespace understory {
 
@@ -13,6 +14,10 @@ BenchReport run_bench(const BenchOptions& options) {
   report.device = device.info();
   bench_kernels(device, options, report);
   bench_frames(device, options, report);
+  if (report.results.empty())
+    throw Error(ErrorKind::usage, "--filter " + options.filter +
+                                      ": no benchmark has this in its name; names are kernel/METHOD and, of the "
+                                      "scenes given, frame/SCENE, as `understory bench` lists them");
   return report;
 }
 

@@ -13,16 +13,14 @@ kernel void shade_sphere_cap(global const float* position_x, global const float*
                              global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  const whole crown = signed_owner_column(owner_crown, owner_row(LOAD(owner, i), owners));
   real v = REAL(1.0);
   truth outside = (truth)(0);
-  for (truth left = ALL_LANES; ANY(left);) {
-    const uint row = next_owner(owners_here, left);
-    const truth lanes = left & (owners_here == (bits)(row));
+  for (truth left = (crown >= 0) & (crown < (whole)((int)crown_count)); ANY(left);) {
+    const uint row = next_owner(TO_BITS(crown), left);
+    const truth lanes = left & (crown == (whole)((int)row));
     left &= NOT(lanes);
-    const int crown = owner_crown[row];
-    if (crown < 0 || crown >= (int)crown_count) continue;
-    global const CrownRecord* shell = crowns + crown;
+    global const CrownRecord* shell = crowns + row;
     const real x = LOAD(position_x, i) - shell->x, y = LOAD(position_y, i) - shell->y;
     const real z = LOAD(position_z, i) - shell->z, radius = (real)(shell->radius);
     v = PICK(

@@ -1,10 +1,11 @@
-// What the W fragments of a work-item belong to. A kernel that needs one number per owner takes a column (owner_column);
-// one that needs a whole record goes through the distinct owners one by one, and reads each row once for all its lanes:
+// What the W fragments of a work-item belong to. Neighbours mostly share an owner, so a column of the owner table costs
+// one look-up for all of them, or one for each. Where a whole record is wanted, kernels go through the distinct rows one
+// by one and read each of them once for all of its lanes:
 //   for (truth left = ALL_LANES; ANY(left);) {
-//     const uint row = next_owner(owner, left);
-//     const truth lanes = left & (owner == (bits)(row));
+//     const uint row = next_owner(rows, left);
+//     const truth lanes = left & (rows == (bits)(row));
 //     left &= NOT(lanes);
-//     ... one row, for `lanes`
+//     ... one record, for `lanes`
 //   }
 #ifndef UNDERSTORY_OWNER_TABLE_H
 #define UNDERSTORY_OWNER_TABLE_H
@@ -16,9 +17,9 @@
 /// Row within the table of `owners` rows; a foreign image may name others, which count as the background's.
 SHARED bits owner_row(bits owner, uint owners) { return PICK(owner < (bits)(owners), owner, (bits)(0u)); }
 
-/// The largest owner among the lanes that are left.
-SHARED uint next_owner(bits owner, truth left) {
-  const bits candidates = PICK(left, owner, (bits)(0u));
+/// The largest row among the lanes that are left.
+SHARED uint next_owner(bits rows, truth left) {
+  const bits candidates = PICK(left, rows, (bits)(0u));
 #if W == 1
   return candidates;
 #elif W == 4

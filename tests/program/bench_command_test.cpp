@@ -47,6 +47,13 @@ TEST(Bench, ComparesWithAnEarlierReport) {
   EXPECT_THAT(second.out, HasSubstr("kernel/open-dome"));
 }
 
+TEST(Bench, RefusesAFilterThatMatchesNothing) {
+  const FinishedProcess bench = small_bench({"--filter", "kernel/no-such", scenes_folder + "/tiny.yaml"});
+  EXPECT_EQ(bench.exit_code, 2);
+  EXPECT_THAT(bench.out, testing::IsEmpty());
+  EXPECT_THAT(bench.err, HasSubstr("understory: error: --filter kernel/no-such: no benchmark has this in its name"));
+}
+
 TEST(Bench, RefusesAReportThatIsNone) {
   const TemporaryFolder folder;
   std::ofstream(folder / "then.json") << "{\"results\": 3}";
