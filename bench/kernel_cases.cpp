@@ -184,7 +184,8 @@ std::vector<KernelCase> kernel_cases() {
           sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 64 * 60, true),
-          combine_case()};
+          combine_case(),
+          environment_case()};
 }
 
 }  // namespace understory

@@ -19,5 +19,7 @@ struct KernelCase {
 };
 
 std::vector<KernelCase> kernel_cases();
+/// In a file of its own, for what it needs beside the fragments.
+KernelCase environment_case();
 
 }  // namespace understory
