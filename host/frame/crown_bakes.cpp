@@ -88,6 +88,7 @@ CrownBaked baked_faces(const Prototype& prototype, const CrownBakedOptions& opti
   hash.add(faces_version);
   hash.add(static_cast<std::int32_t>(options.sky));
   hash.add(options.rays_per_triangle);
+  hash.add(options.most_rays);
   hash.add(options.texels_per_triangle);
   hash.add(options.seed);
   if (const std::optional<std::string> bytes = load_bake("crown-baked", hash))

@@ -92,7 +92,8 @@ class FaceSide {
   SurfacePoint point(glm::vec2 place) const { return {a_ + place.x * u_ + place.y * v_, normal_}; }
   glm::vec3 direction(glm::vec2 random) const { return frame_about(normal_) * cosine_hemisphere(random); }
 
-  void add(glm::vec2 place, double visibility) {
+  /// `visibility`: mean of `rays` rays from one place.
+  void add(glm::vec2 place, double visibility, double rays) {
     const float x = place.x * static_cast<float>(lattice_.columns), y = place.y * static_cast<float>(lattice_.rows);
     const int column = std::min(static_cast<int>(x), lattice_.columns - 1);
     const int row = std::min(static_cast<int>(y), lattice_.rows - 1);
@@ -101,17 +102,17 @@ class FaceSide {
                           number(column + 1, row + 1)};
     const double weights[] = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
     for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) square_(points[i], points[j]) += weights[i] * weights[j];
-      product_[points[i]] += weights[i] * visibility;
+      for (int j = 0; j < 4; ++j) square_(points[i], points[j]) += rays * weights[i] * weights[j];
+      product_[points[i]] += rays * weights[i] * visibility;
     }
-    sum_ += visibility;
-    count_ += 1;
+    sum_ += rays * visibility;
+    count_ += rays;
   }
 
-  /// Values at the lattice points. `rays`: averaged in each sample.
-  Eigen::VectorXd fit(double rays) const {
+  /// Values at the lattice points.
+  Eigen::VectorXd fit() const {
     const double mean = (sum_ + field_.mean()) / (count_ + 1);
-    const double noise = std::max(mean * (1 - mean), 0.01) / rays;
+    const double noise = std::max(mean * (1 - mean), 0.01);  // of one ray
     Eigen::MatrixXd square = square_;
     square.diagonal().array() += noise / (tau_field * tau_field) / lattice_.points();
     const double step = noise / (tau_step * tau_step);
@@ -172,25 +173,22 @@ struct RayBundle {
   }
 };
 
-/// Leaves: every ray counts. Returns the rays per sample.
-double sample_leaf(const RestSurface& surface, FaceSide& side, std::size_t rays, Sky sky, std::uint32_t seed) {
-  for (std::size_t first = 0; first < rays;) {
-    RayBundle bundle;
-    const std::size_t last = first == 0 ? std::min(rays, first_rays) : rays;
-    for (; first < last; ++first) {
-      const auto index = static_cast<std::uint32_t>(first);
-      bundle.add(side, even_place(index, seed), scrambled_sobol(index, seed + 1));
-    }
-    bundle.trace(surface);
-    for (std::size_t ray = 0; ray < bundle.places.size(); ++ray)
-      side.add(bundle.places[ray], bundle.sees_sky(ray, sky));
-    if (last == first_rays && std::find(bundle.open.begin(), bundle.open.end(), 1) == bundle.open.end()) break;
+/// Every ray counts: `first` to `last` - 1 of the side's rays. True when one of them got out.
+bool sample_everywhere(const RestSurface& surface, FaceSide& side, std::size_t first, std::size_t last, Sky sky,
+                       std::uint32_t seed) {
+  RayBundle bundle;
+  for (std::size_t i = first; i < last; ++i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    bundle.add(side, even_place(index, seed), scrambled_sobol(index, seed + 1));
   }
-  return 1;
+  bundle.trace(surface);
+  for (std::size_t ray = 0; ray < bundle.places.size(); ++ray)
+    side.add(bundle.places[ray], bundle.sees_sky(ray, sky), 1);
+  return std::find(bundle.open.begin(), bundle.open.end(), 1) != bundle.open.end();
 }
 
-/// Wood: stems end inside each other, so that only places that are seen count: those whose first ray gets out.
-double sample_wood(const RestSurface& surface, FaceSide& side, std::size_t rays, Sky sky, std::uint32_t seed) {
+/// Only places that are seen count: those whose first ray gets out.
+void sample_where_seen(const RestSurface& surface, FaceSide& side, std::size_t rays, Sky sky, std::uint32_t seed) {
   constexpr std::size_t per_place = 3;
   std::size_t spent = 0, seen = 0;
   for (std::uint32_t index = 0; spent < rays;) {
@@ -208,13 +206,23 @@ double sample_wood(const RestSurface& surface, FaceSide& side, std::size_t rays,
     for (std::size_t ray = 0; ray < more.starts.size(); ray += per_place) {
       double sum = 0;
       for (std::size_t i = 0; i < per_place; ++i) sum += more.sees_sky(ray + i, sky);
-      side.add(more.places[ray], sum / per_place);
+      side.add(more.places[ray], sum / per_place, per_place);
     }
     seen += more.starts.size() / per_place;
     spent += round + more.starts.size();
-    if (seen == 0) break;
+    // Hardly any place is seen: what there is of them would say too little about the rest.
+    if (seen * 8 < index)
+      return (void)sample_everywhere(surface, side, 0, std::max(first_rays, rays - std::min(rays, spent)), sky,
+                                     seed + 3);
   }
-  return per_place;
+}
+
+/// Stems run into each other, so that parts of a face may lie inside wood, where nobody sees them: on wood only places
+/// that are seen count. Leaves are thin: all of them counts.
+void sample_side(const RestSurface& surface, FaceSide& side, bool wood, std::size_t rays, Sky sky, std::uint32_t seed) {
+  if (wood) return sample_where_seen(surface, side, rays, sky, seed);
+  if (sample_everywhere(surface, side, 0, std::min(rays, first_rays), sky, seed) && rays > first_rays)
+    sample_everywhere(surface, side, first_rays, rays, sky, seed);
 }
 
 std::vector<SurfaceClass> classes_of(const Prototype& prototype) {
@@ -254,16 +262,17 @@ CrownBaked bake_crown_faces(const Prototype& prototype, const CrownBakedOptions&
     const double relative = double(surface.area(i)) / mean_area;
     shares += share[i] = relative + std::sqrt(relative);
   }
+  const double all_rays = std::min(options.rays_per_triangle * double(count), options.most_rays);
   const std::vector<SurfaceClass> classes = classes_of(prototype);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-    const auto rays = static_cast<std::size_t>(options.rays_per_triangle / 2 * double(count) * share[i] / shares) + 8;
+    const auto rays = static_cast<std::size_t>(all_rays / 2 * share[i] / shares) + 8;
     const std::size_t per_side = static_cast<std::size_t>(lattices[i].columns * lattices[i].rows);
     for (const bool front : {true, false}) {
       FaceSide side(surface, field, i, front, lattices[i]);
       const auto seed = static_cast<std::uint32_t>(mix_bits(2 * i + (front ? 0 : 1)) + options.seed);
       const bool wood = classes[i] == SurfaceClass::wood;
-      const double per_sample = (wood ? sample_wood : sample_leaf)(surface, side, rays, options.sky, seed);
-      side.store(side.fit(per_sample), &baked.texels[baked.faces[i][0] + (front ? 0 : per_side)]);
+      sample_side(surface, side, wood, rays, options.sky, seed);
+      side.store(side.fit(), &baked.texels[baked.faces[i][0] + (front ? 0 : per_side)]);
     }
   });
   return baked;

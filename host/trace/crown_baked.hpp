@@ -12,8 +12,9 @@ namespace understory {
 
 struct CrownBakedOptions {
   Sky sky = Sky::dome;
-  double rays_per_triangle = 240;    // mean, both sides together; sides that nobody can see end early
-  double texels_per_triangle = 1.5;  // mean, of one side; large faces get more of them, crossed cards too
+  double rays_per_triangle = 440;  // mean, both sides together; sides that nobody can see end early
+  double most_rays = 1e8;          // whatever the number of triangles
+  double texels_per_triangle = 3;  // mean, of one side; large faces get more of them, crossed cards too
   std::uint32_t seed = 1;
 };
 

@@ -35,7 +35,7 @@ Errors against_truth(const Prototype& prototype, const CrownBakedOptions& option
   const SeenSurface seen = seen_surface(surface, prototype, rays);
   TruthOptions truth_options;
   truth_options.sky = options.sky;
-  truth_options.rays = 512;
+  truth_options.rays = 256;
   const Truth truth = trace_truth(surface.tracer(), seen.positions, seen.normals, truth_options);
   const CrownBaked baked = bake_crown_faces(prototype, options);
   double square = 0, sum = 0;
@@ -65,7 +65,7 @@ TEST(CrownBakedBake, TopAndUndersideOfAPlateUnderTheDome) {
 
 TEST(CrownBakedBake, FloorAtTheFootOfALongWallSeesHalf) {
   // V_c of the floor at distance x from a wall of height h, endless: (1 + x / sqrt(x^2 + h^2)) / 2; half at the foot.
-  const float h = 1, far_away = 400;
+  const float h = 1, far_away = 30;
   const Prototype corner = prototype_of({{0, -far_away, 0},
                                          {2, -far_away, 0},
                                          {2, far_away, 0},
@@ -93,11 +93,11 @@ TEST(CrownBakedBake, FloorAtTheFootOfALongWallSeesHalf) {
 }
 
 TEST(CrownBakedBake, ShrubIsNearTheTruthOfWhatIsSeen) {
-  const Prototype shrub = build_species(small_species("shrub", 2000), 4, nullptr).prototype;
+  const Prototype shrub = build_species(small_species("shrub", 800), 4, nullptr).prototype;
   for (const Sky sky : {Sky::dome, Sky::sphere}) {
     CrownBakedOptions options;
     options.sky = sky;
-    const Errors errors = against_truth(shrub, options, 4000);
+    const Errors errors = against_truth(shrub, options, 2500);
     EXPECT_LE(errors.rmse, 0.05);
     EXPECT_NEAR(errors.bias, 0, 0.01);
   }
