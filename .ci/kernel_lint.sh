@@ -34,7 +34,9 @@ for kernel in kernels/*.cl; do
       for radii in 1 2; do lint "$kernel" "-DW=$width" -DNORMALS -DTHICKNESS "-DRADII=$radii"; done
       lint "$kernel" "-DW=$width" -DQUADRATIC -DTHICKNESS
     fi
-    if grep -q GRASS_HEIGHT "$kernel"; then lint "$kernel" "-DW=$width" -DGRASS_HEIGHT; fi
+    for option in GRASS_HEIGHT SKY_DOME LEVELS; do
+      if grep -q "$option" "$kernel"; then lint "$kernel" "-DW=$width" "-D$option"; fi
+    done
   done
 done
 ((failures == 0)) || exit 1

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "bench/accuracy_pictures.hpp"
+#include "host/trace/calibrated_world.hpp"
 #include "host/trace/frame_truth.hpp"
 #include "sim/error.hpp"
 #include "sim/random.hpp"
@@ -26,7 +27,9 @@ World world_of(const AccuracySubject& subject) {
   scene.name = subject.name;
   scene.image = {image_size, image_size};
   scene.methods = no_methods();
-  return build_world(scene);
+  World world = build_world(scene);
+  calibrate_world(world);
+  return world;
 }
 
 /// What the cameras look at: everything but the terrain.

@@ -12,7 +12,7 @@ constexpr double gust_speed = 8;  // m/s
 constexpr const char* tree_methods[] = {"reeves-blau",       "sphere-cap",          "ellipsoid-cap", "shells-cap",
                                         "shells-cap-levels", "crown-transmittance", "crown-field",   "crown-baked"};
 constexpr const char* grass_methods[] = {"grass-height", "grass-transmittance"};
-constexpr const char* crowns_methods[] = {"none", "solid-angle-cosine", "crown-transmittance", "crown-shells"};
+constexpr const char* crowns_methods[] = {"none", "solid-angle-cosine", "crown-shells"};
 
 struct MeshSubject {
   const char *name, *file;

@@ -1,21 +1,25 @@
 // The table of kernel benchmarks. References are the shared formulas in double, fragment by fragment.
 #include "bench/kernel_cases.hpp"
 
+#include <map>
 #include <memory>
 
 #include "host/passes/combine.hpp"
+#include "host/passes/crown_transmittance.hpp"
 #include "host/passes/ellipsoid_cap.hpp"
 #include "host/passes/grass_height.hpp"
 #include "host/passes/open_dome.hpp"
 #include "host/passes/reeves_blau.hpp"
 #include "host/passes/solid_angle.hpp"
 #include "host/passes/sphere_cap.hpp"
+#include "kernels/shared/crown_transmittance.h"
 #include "kernels/shared/ellipsoid_cap.h"
 #include "kernels/shared/grass_height.h"
 #include "kernels/shared/open_dome.h"
 #include "kernels/shared/reeves_blau.h"
 #include "kernels/shared/solid_angle.h"
 #include "kernels/shared/sphere_cap.h"
+#include "sim/transmittance_fit.hpp"
 
 namespace understory {
 namespace {
@@ -61,6 +65,53 @@ double sphere_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
 double reeves_blau_reference(const CrownRecord& crown, const BenchFragment& f) {
   const glm::dvec3 p = glm::dvec3(f.position) - glm::dvec3(crown.x, crown.y, crown.z);
   return reeves_blau(p.x, p.y, p.z, double(crown.radius), double(crown.ambient), double(crown.extinction));
+}
+
+/// One shell a crown, its sphere, at k R = 3: the same error everywhere as in the crowns of a scene.
+TransmittanceShell transmittance_shell(const CrownRecord& crown, bool dome) {
+  const glm::dvec3 radii(crown.radius);
+  TransmittanceShell shell = fit_transmittance(glm::dmat3(1), radii, 3 / radii.x, dome);
+  shell.x = crown.x;
+  shell.y = crown.y;
+  shell.z = crown.z;
+  return shell;
+}
+
+/// `dome`: with the horizon in the model.
+KernelCase crown_transmittance_case(bool dome) {
+  return {
+      std::string("crown-transmittance") + (dome ? "/dome" : ""),
+      8,
+      2,
+      dome ? 120.0 : 95.0,
+      3e-5,  // tests/support/tolerances.hpp
+      [dome](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        std::vector<std::uint32_t> first{0};
+        std::vector<TransmittanceShell> shells;
+        for (const CrownRecord& crown : all.crown_rows()) {
+          shells.push_back(transmittance_shell(crown, dome));
+          first.push_back(static_cast<std::uint32_t>(shells.size()));
+        }
+        struct State {
+          CrownTransmittancePass pass;
+          Buffer<std::uint32_t> first;
+          Buffer<TransmittanceShell> shells;
+        };
+        const auto state = std::make_shared<State>(
+            State{CrownTransmittancePass(device, dome),
+                  Buffer<std::uint32_t>(device, std::span<const std::uint32_t>(first), "first shells"),
+                  Buffer<TransmittanceShell>(device, std::span<const TransmittanceShell>(shells), "shells")});
+        return [&all, &visibility, state] {
+          state->pass.run(all.planes, all.owners, state->first, all.crown_rows().size(), state->shells, visibility);
+        };
+      },
+      [dome, fits = std::map<float, TransmittanceShell>()](const BenchFragments& all, const BenchFragment& f) mutable {
+        const CrownRecord* crown = crown_of(all, f);
+        if (!crown) return 1.0;
+        if (!fits.contains(crown->radius)) fits[crown->radius] = transmittance_shell(*crown, dome);
+        const glm::dvec3 p = glm::dvec3(f.position) - glm::dvec3(crown->x, crown->y, crown->z), n(f.normal);
+        return crown_transmittance(fits[crown->radius], p.x, p.y, p.z, n.x, n.y, n.z, dome);
+      }};
 }
 
 double ellipsoid_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
@@ -180,6 +231,8 @@ std::vector<KernelCase> kernel_cases() {
           crown_case<ReevesBlauPass>("reeves-blau", 5, 32, reeves_blau_reference),
           crown_case<SphereCapPass>("sphere-cap", 8, 55, sphere_cap_reference),
           crown_case<EllipsoidCapPass>("ellipsoid-cap", 8, 105, ellipsoid_cap_reference),
+          crown_transmittance_case(false),
+          crown_transmittance_case(true),
           sphere_case("solid-angle", solid_angle, 0, false),
           sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),

@@ -114,9 +114,12 @@ double rate_for_mean(const std::vector<double>& weights, double mean) {
   return 0.5 * (low + high);
 }
 
-std::vector<double> cap_weights(const std::vector<Sample>& samples, const UnitFrame& frame) {
+/// `frame_of(position)`: the shell that owns it.
+template <typename FrameOf>
+std::vector<double> cap_weights(const std::vector<Sample>& samples, const FrameOf& frame_of) {
   std::vector<double> weights;
   for (const Sample& sample : samples) {
+    const UnitFrame frame = frame_of(sample.position);
     for (double side : {1.0, -1.0}) {
       const glm::dvec3 normal = frame.normal(side * sample.normal);
       weights.push_back(frame.volume_scale() * weighted_cap(frame.point(sample.position), normal));
@@ -134,7 +137,15 @@ double disc_transmittance(double optical_radius) {
   return 2 * (1 - (1 + a) * std::exp(-a)) / (a * a);
 }
 
-CrownShell fit_crown(const Prototype& prototype) {
+std::size_t nearest_shell_of(const CrownShell& crown, const glm::dvec3& position) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < crown.shells.size(); ++i)
+    if (glm::distance(position, glm::dvec3(crown.shells[i])) < glm::distance(position, glm::dvec3(crown.shells[best])))
+      best = i;
+  return best;
+}
+
+CrownShell fit_crown(const Prototype& prototype, int shells) {
   CrownShell crown;
   std::vector<glm::vec3> points;
   const bool leafy = has_foliage(prototype);
@@ -160,6 +171,8 @@ CrownShell fit_crown(const Prototype& prototype) {
   crown.ellipsoid_centre = glm::vec3(ellipsoid.centre);
   crown.ellipsoid_axes = glm::mat3(ellipsoid.axes);
   crown.ellipsoid_radii = glm::vec3(ellipsoid.radii);
+  for (const Sphere& shell : cluster_spheres(points, shells))
+    crown.shells.emplace_back(glm::vec3(shell.centre), static_cast<float>(shell.radius));
   crown.leaf_area = static_cast<float>(leaf_area);
   crown.plant_area = static_cast<float>(leaf_area + 0.5 * wood_area);
   const Limb& trunk = prototype.limbs.front();
@@ -184,6 +197,7 @@ CrownConstants derive_constants(const Prototype& prototype, double reeves_blau_a
   const UnitFrame ellipsoid = ellipsoid_frame(crown), sphere = sphere_frame(crown);
   const double extinction = leaf_angle_factor * crown.plant_area / (4 * pi / 3);  // of a shell with volume scale 1
   const double k = extinction / ellipsoid.volume_scale();
+  const auto of = [](const UnitFrame& frame) { return [&frame](const glm::dvec3&) { return frame; }; };
   double sum = 0;
   std::vector<double> depths;
   for (const Sample& sample : samples) {
@@ -192,8 +206,15 @@ CrownConstants derive_constants(const Prototype& prototype, double reeves_blau_a
     depths.push_back(std::max(0.0, crown.sphere_radius - glm::distance(sample.position, sphere.centre)));
   }
   constants.mean_visibility = sum / (2 * static_cast<double>(samples.size()));
-  constants.alpha_rho = rate_for_mean(cap_weights(samples, sphere), constants.mean_visibility);
-  constants.alpha_rho_ellipsoid = rate_for_mean(cap_weights(samples, ellipsoid), constants.mean_visibility);
+  constants.alpha_rho = rate_for_mean(cap_weights(samples, of(sphere)), constants.mean_visibility);
+  constants.alpha_rho_ellipsoid = rate_for_mean(cap_weights(samples, of(ellipsoid)), constants.mean_visibility);
+  const auto nearest_shell = [&](const glm::dvec3& position) {
+    const glm::vec4 shell = crown.shells[nearest_shell_of(crown, position)];
+    return UnitFrame{glm::dvec3(shell), glm::dvec3(shell.w), glm::dmat3(1)};
+  };
+  if (!crown.shells.empty())
+    constants.alpha_rho_shells = rate_for_mean(cap_weights(samples, nearest_shell), constants.mean_visibility);
+  constants.extinction = k;
   constants.reeves_blau_extinction = rate_for_mean(depths, constants.mean_visibility / reeves_blau_ambient);
   constants.opacity = 1 - disc_transmittance(crown.sphere_radius * extinction / sphere.volume_scale());
   return constants;

@@ -26,15 +26,25 @@ Sphere smallest_sphere(const std::vector<glm::vec3>& points);
 /// diagonal is thickened to that. No points: radii 0.
 Ellipsoid smallest_ellipsoid(const std::vector<glm::vec3>& points);
 
+/// The smallest spheres around up to `count` clusters of the points (m): fewer where there are fewer places.
+/// Deterministic; clusters of a single place are left out.
+std::vector<Sphere> cluster_spheres(const std::vector<glm::vec3>& points, int count);
+
 /// Shells around leaves and blades (wood when there is neither), leaf and plant area; carried by limb 0.
-CrownShell fit_crown(const Prototype& prototype);
+/// `shells`: most spheres of the clustered shell.
+CrownShell fit_crown(const Prototype& prototype, int shells = 6);
+
+/// The clustered sphere with the closest centre: it owns the position. There must be one.
+std::size_t nearest_shell_of(const CrownShell& crown, const glm::dvec3& position);
 
 /// Constants at scale 1. See crown.cpp for their derivation.
 struct CrownConstants {
   double alpha_rho = 0;               // eq. 6 of Hegeman et al. 2006 in the sphere, 1/m^3
   double alpha_rho_ellipsoid = 0;     // the same in the ellipsoid, 1/m^3
+  double alpha_rho_shells = 0;        // the same in the nearest of the clustered spheres, 1/m^3
   double reeves_blau_extinction = 0;  // a of A exp(-a depth) in the sphere, 1/m
   double opacity = 0;                 // share of the light that the sphere's disc blocks
+  double extinction = 0;              // k of the ellipsoid, 1/m: G PAD with G = 1/2, unclumped
   double mean_visibility = 1;         // of the foliage, V_c under `sky: sphere`: what both models are made to reproduce
 };
 

@@ -122,6 +122,15 @@ class Posing {
         glm::vec3(trunk.carried(glm::dvec3(shell.ellipsoid_centre), shell.trunk_height) - pose_.eye);
     crown.ellipsoid_axes = glm::mat3(there.rotation * glm::dmat3(shell.ellipsoid_axes));
     crown.ellipsoid_radii = shell.ellipsoid_radii * scale;
+    for (const glm::vec4& rest : shell.shells)
+      crown.shells.emplace_back(glm::vec3(trunk.carried(glm::dvec3(rest), double(shell.trunk_height)) - pose_.eye),
+                                rest.w * scale);
+    crown.shell_opacity = model.shell_opacity;
+    crown.shell_scale = model.shell_scale;
+    crown.species = instance.species;
+    crown.scale = scale;
+    crown.alpha_rho_levels = model.alpha_rho_levels / (scale * scale * scale);
+    crown.alpha_rho_shells = model.alpha_rho_shells / (scale * scale * scale);
     crown.alpha_rho = model.alpha_rho / (scale * scale * scale);
     crown.alpha_rho_ellipsoid = model.alpha_rho_ellipsoid / (scale * scale * scale);
     crown.reeves_blau_ambient = model.reeves_blau_ambient;

@@ -17,7 +17,14 @@ struct PosedCrown {
   glm::vec3 ellipsoid_centre{0};
   glm::mat3 ellipsoid_axes{1};
   glm::vec3 ellipsoid_radii{0};
+  std::vector<glm::vec4> shells;                 // clustered spheres: centre, radius
+  std::vector<float> shell_opacity;              // of each: share of the sky light its disc blocks
+  std::int32_t species = -1;                     // index in World::crown_models
+  float shell_scale = 1;                         // CrownModel's
+  float scale = 1;                               // of the plant
   float alpha_rho = 0, alpha_rho_ellipsoid = 0;  // eq. 6 in the sphere and in the ellipsoid, 1/m^3
+  float alpha_rho_levels = 0;                    // and with the sphere's visibility as a factor
+  float alpha_rho_shells = 0;                    // in the nearest clustered sphere
   float reeves_blau_ambient = 1, reeves_blau_extinction = 0;
   float opacity = 1;        // share of the sky light its disc blocks: 1 - mean transmittance
   std::int32_t group = -1;  // Owner::group of the plant

@@ -51,17 +51,21 @@ struct TriangleRun {
   std::uint32_t first = 0, count = 0;  // in triangles
 };
 
+/// Which shell of a crown a model takes: one sphere, one ellipsoid, or the clustered spheres.
+enum class CrownShape : std::uint8_t { sphere, ellipsoid, shells };
+
 /// Shell of the foliage in rest pose: a minimal-volume fit (sim/crown.hpp). Hegeman et al. 2006, sections 3 and 5.
 struct CrownShell {
   glm::vec3 sphere_centre{0};
   float sphere_radius = 0;  // m; 0: no crown
   glm::vec3 ellipsoid_centre{0};
-  glm::mat3 ellipsoid_axes{1};   // columns: unit directions
-  glm::vec3 ellipsoid_radii{0};  // m, along the columns
-  float leaf_area = 0;           // one-sided, m^2
-  float plant_area = 0;          // leaf area + half the wood's surface, m^2
-  std::uint32_t limb = 0;        // the limb whose sway carries the crown (the trunk)
-  float trunk_height = 0;        // where along that limb, m: height of the sphere's centre
+  glm::mat3 ellipsoid_axes{1};    // columns: unit directions
+  glm::vec3 ellipsoid_radii{0};   // m, along the columns
+  std::vector<glm::vec4> shells;  // spheres around clusters of the foliage: centre, radius, m
+  float leaf_area = 0;            // one-sided, m^2
+  float plant_area = 0;           // leaf area + half the wood's surface, m^2
+  std::uint32_t limb = 0;         // the limb whose sway carries the crown (the trunk)
+  float trunk_height = 0;         // where along that limb, m: height of the sphere's centre
 };
 
 struct Prototype {

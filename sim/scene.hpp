@@ -87,6 +87,7 @@ struct SpeciesSource {
   std::vector<std::string> leaf_materials{"leaf*", "needle*", "flower*", "blade*"};  // glob patterns, mesh only
   std::optional<SwayMode> trunk, branch, leaf;                                       // unset: the preset's
   glm::vec3 leaf_albedo{0.10f, 0.17f, 0.05f}, wood_albedo{0.16f, 0.12f, 0.09f};      // linear RGB
+  int shells = 6;  // most spheres of the clustered shell of its crown
   /// Constants of the models; negative: derived from the foliage (see sim/crown.hpp).
   double alpha_rho = -1;                                        // eq. 6 of Hegeman et al. 2006, 1/m^3
   double reeves_blau_ambient = 1, reeves_blau_extinction = -1;  // A, and a in 1/m
@@ -178,9 +179,12 @@ struct NearField {
 
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
-  std::string tree = "sphere-cap";  // sphere-cap, ellipsoid-cap, reeves-blau, crown-field, crown-baked, ambient, none
-  std::string grass = "grass-height";            // grass-height, ambient, none
-  std::string crowns = "solid-angle-cosine";     // how crowns shade others: solid-angle, -exact, -cosine, none
+  /// sphere-cap, ellipsoid-cap, shells-cap, shells-cap-levels, reeves-blau, crown-transmittance, crown-field,
+  /// crown-baked, ambient, none
+  std::string tree = "sphere-cap";
+  std::string grass = "grass-height";  // grass-height, ambient, none
+  std::string crowns =
+      "solid-angle-cosine";  // how crowns shade others: solid-angle, -exact, -cosine, crown-shells, none
   std::string occluders = "solid-angle-cosine";  // the same for moving occluders
   std::string near = "none";                     // obscurance-point, obscurance-line, obscurance-area, none
   NearField near_field = {};                     // of `near`

@@ -56,8 +56,15 @@ struct GrassBlades {
 /// Constants of the crown models of one species at scale 1. A plant of scale s has alpha_rho / s^3 and extinction / s.
 struct CrownModel {
   float alpha_rho = 0, alpha_rho_ellipsoid = 0;               // eq. 6 in the crown's sphere and ellipsoid, 1/m^3
+  float alpha_rho_shells = 0;                                 // in the nearest of the clustered spheres, 1/m^3
+  float alpha_rho_levels = 0;                                 // with the whole sphere's visibility as a factor
+  CrownShape shape = CrownShape::ellipsoid;                   // that crown-transmittance takes
+  float extinction = 0;                                       // its k, 1/m
+  float shell_scale = 1;                                      // times the shell that holds all foliage: sparse rims
+  float near_share = 1;                                       // its share that leaves next to a fragment let through
   float reeves_blau_ambient = 1, reeves_blau_extinction = 0;  // A; a, 1/m
   float opacity = 0;                                          // 1 - mean transmittance of the crown's disc
+  std::vector<float> shell_opacity;                           // the same of each clustered sphere
 };
 
 /// A sphere that stands for (a piece of) an occluder part in the solid-angle methods.

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "sim/crown.hpp"
 #include "sim/error.hpp"
 #include "sim/files/mesh.hpp"
 #include "sim/placement.hpp"
@@ -56,6 +57,11 @@ CrownModel crown_model_of(const Species& species, const SpeciesSource& source) {
   CrownModel model;
   model.alpha_rho = species.alpha_rho;
   model.alpha_rho_ellipsoid = species.alpha_rho_ellipsoid;
+  model.alpha_rho_shells = species.alpha_rho_shells;
+  model.alpha_rho_levels = species.alpha_rho_shells / 2;  // two levels share what one blocks
+  model.extinction = species.extinction;
+  for (const glm::vec4& shell : species.prototype.crown.shells)
+    model.shell_opacity.push_back(static_cast<float>(1 - disc_transmittance(double(shell.w * species.extinction))));
   model.reeves_blau_ambient = static_cast<float>(source.reeves_blau_ambient);
   model.reeves_blau_extinction = species.reeves_blau_extinction;
   model.opacity = species.opacity;

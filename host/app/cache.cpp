@@ -41,7 +41,7 @@ void add_cache(CLI::App& program, Command& chosen) {
   command->require_subcommand(1);
   command->footer(
       "PoCL keeps compiled kernels below $POCL_CACHE_DIR, else $XDG_CACHE_HOME/understory or ~/.cache/understory.\n"
-      "What was traced once for a plant (crown-field) lies in `bakes` below the last two.\n"
+      "What was traced once for a plant (crown-field, calibrations) lies in `bakes` below the last two.\n"
       "Damaged entries are found and removed at every start; emptying it only costs the next run a few seconds.");
   const auto json = std::make_shared<bool>(false);
   CLI::App* info = command->add_subcommand("info", "Where it is and how much is in it");

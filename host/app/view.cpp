@@ -31,7 +31,7 @@ int view(const ViewCommand& options) {
   use_threads(options.device);
   const Scene scene = load_scene(options.scene);
   Device device(options.device.device);
-  const World world = read_world(scene);
+  const World world = read_world(scene, true);
   FrameRunner runner(device, world);
   Methods chosen = scene.methods;
 

@@ -39,10 +39,12 @@ void require_known(const char* key, const std::string& name, std::initializer_li
 
 void check_names(const Methods& methods) {
   require_known("tree", methods.tree,
-                {"sphere-cap", "ellipsoid-cap", "reeves-blau", "crown-field", "crown-baked", "ambient", "none"});
+                {"sphere-cap", "ellipsoid-cap", "shells-cap", "shells-cap-levels", "reeves-blau", "crown-transmittance",
+                 "crown-field", "crown-baked", "ambient", "none"});
   require_known("grass", methods.grass, {"grass-height", "ambient", "none"});
   const auto solid_angles = {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
-  require_known("crowns", methods.crowns, solid_angles);
+  require_known("crowns", methods.crowns,
+                {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"});
   require_known("occluders", methods.occluders, solid_angles);
   require_known("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"});
 }
@@ -64,6 +66,7 @@ void plan_visibility(const Contents& contents, const Methods& methods, Plan& pla
   if (tree && methods.tree != "ambient") {
     std::string program = methods.tree;
     std::replace(program.begin(), program.end(), '-', '_');
+    if (program == "shells_cap_levels") program = "shells_cap";
     plan.passes.push_back({methods.tree, program, "plants with a crown"});
   }
   if (grass && methods.grass == "grass-height") plan.passes.push_back({"grass-height", "grass_height", "grass"});

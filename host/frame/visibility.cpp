@@ -1,36 +1,19 @@
 #include "host/frame/visibility.hpp"
 
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "host/frame/crown_bakes.hpp"
 #include "host/frame/crown_records.hpp"
+#include "host/frame/tree_model.hpp"
 #include "host/passes/ambient.hpp"
 #include "host/passes/combine.hpp"
-#include "host/passes/ellipsoid_cap.hpp"
 #include "host/passes/grass_height.hpp"
 #include "host/passes/open_dome.hpp"
-#include "host/passes/reeves_blau.hpp"
 #include "host/passes/solid_angle.hpp"
-#include "host/passes/sphere_cap.hpp"
 
 namespace understory {
 namespace {
-
-/// A table on the device that is rewritten every frame and grows when it must.
-template <typename T>
-class Table {
- public:
-  void write(Device& device, const std::vector<T>& rows, const char* what) {
-    if (buffer_.size() < rows.size()) buffer_ = Buffer<T>(device, rows.size(), what);
-    if (!rows.empty()) buffer_.write(std::span<const T>(rows));
-  }
-  const Buffer<T>& buffer() const { return buffer_; }
-
- private:
-  Buffer<T> buffer_;
-};
 
 /// One solid-angle pass, and whose spheres it takes.
 struct SphereShading {
@@ -51,15 +34,6 @@ struct BakedShading {
   CrownBakedPass pass;
   CrownBakedTables tables;
 };
-
-using TreePass = std::variant<SphereCapPass, EllipsoidCapPass, ReevesBlauPass>;
-
-std::optional<TreePass> tree_pass(Device& device, const Plan& plan) {
-  if (plan.has("sphere-cap")) return TreePass(std::in_place_type<SphereCapPass>, device);
-  if (plan.has("ellipsoid-cap")) return TreePass(std::in_place_type<EllipsoidCapPass>, device);
-  if (plan.has("reeves-blau")) return TreePass(std::in_place_type<ReevesBlauPass>, device);
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -85,7 +59,7 @@ struct VisibilityPasses::Impl {
   Buffer<float> visibility;
   std::optional<GroundCoverTable> cover;
   std::optional<AmbientPass> ambient;
-  std::optional<TreePass> tree;
+  std::optional<TreeModel> tree;
   std::optional<FieldShading> field;
   std::optional<BakedShading> baked;
   std::optional<GrassHeightPass> grass;
@@ -95,7 +69,6 @@ struct VisibilityPasses::Impl {
   ObscuranceView view;
   CombinePass combine;
   std::optional<EnvironmentLight> environment;
-  Table<CrownRecord> crowns;
 };
 
 VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const Methods& the_methods, const Plan& plan,
@@ -105,13 +78,13 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
       methods(the_methods),
       padded_fragments(padded_fragment_count(width * height)),
       visibility(device, padded_fragments, "visibility"),
-      tree(tree_pass(device, plan)),
       combine(device) {
   if (plan.has("ambient")) {
     cover.emplace(device, world->ground_cover);
     ambient.emplace(device);
     add_term("ambient");
   }
+  if (TreeModel::knows(methods.tree) && plan.has(methods.tree)) tree.emplace(device, *world, methods.tree);
   if (plan.has("crown-field")) field = {CrownFieldPass(device), upload_crown_fields(device, *world)};
   if (plan.has("crown-baked")) baked = {CrownBakedPass(device), upload_crown_baked(device, *world)};
   if (tree || field || baked) add_term(methods.tree);
@@ -146,10 +119,7 @@ void VisibilityPasses::Impl::run_own_models(const Pose* pose, const OwnerTables&
     if (methods.grass == "ambient") constant_classes |= class_bit(SurfaceClass::blade);
     ambient->run(planes, owners, methods.ambient, constant_classes, *cover, pose->eye, terms.at("ambient"));
   }
-  if (tree) {
-    crowns.write(device, crown_records(*pose, methods.tree), "crowns");
-    std::visit([&](auto& pass) { pass.run(planes, owners, crowns.buffer(), terms.at(methods.tree)); }, *tree);
-  }
+  if (tree) tree->run(*pose, planes, owners, terms.at(methods.tree));
   if (field) field->pass.run(planes, field->fields, terms.at(methods.tree));
   if (baked) baked->pass.run(planes, baked->tables.texels, terms.at(methods.tree));
   if (grass) grass->run(planes, owners, terms.at("grass-height"));
@@ -158,7 +128,8 @@ void VisibilityPasses::Impl::run_own_models(const Pose* pose, const OwnerTables&
 
 void VisibilityPasses::Impl::run_spheres(const Pose& pose, const OwnerTables& owners, FragmentPlanes& planes) {
   for (SphereShading& shading : shadings) {
-    const std::vector<ShadingSphere> spheres = shading_spheres(pose, shading.crowns, shading.occluders);
+    const std::vector<ShadingSphere> spheres =
+        shading_spheres(pose, shading.crowns, shading.occluders, shading.method == "crown-shells");
     shading.spheres.write(device, spheres, "shading spheres");
     shading.pass.run(planes, owners, shading.spheres.buffer(), spheres.size(), terms.at(shading.method));
   }
@@ -175,7 +146,10 @@ VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
   all.near_is_limit = methods.near_field.combine == "minimum";
   // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md); bakes are traced under the scene's sky.
   if (grass) all.horizon_classes |= class_bit(SurfaceClass::blade);
-  if (field || baked) all.horizon_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
+  if (field || baked || (tree && tree->has_horizon()))
+    all.horizon_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
+  if (tree && tree->has_horizon() && world->grass.empty())  // blades of plants from meshes
+    all.horizon_classes |= class_bit(SurfaceClass::blade);
   return all;
 }
 

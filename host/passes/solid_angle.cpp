@@ -13,9 +13,9 @@ constexpr std::size_t longest_list = 256;  // spheres; a tile with more tries al
 std::string share_option(const std::string& method) {
   if (method == "solid-angle") return "-DSHARE=unit_solid_angle";
   if (method == "solid-angle-exact") return "-DSHARE=unit_solid_angle_exact";
-  if (method == "solid-angle-cosine") return "-DSHARE=unit_solid_angle_cosine";
+  if (method == "solid-angle-cosine" || method == "crown-shells") return "-DSHARE=unit_solid_angle_cosine";
   throw Error(ErrorKind::unexpected,
-              "method '" + method + "' is not one of solid-angle, solid-angle-exact, solid-angle-cosine");
+              "method '" + method + "' is not one of solid-angle, solid-angle-exact, solid-angle-cosine, crown-shells");
 }
 
 }  // namespace

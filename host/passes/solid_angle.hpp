@@ -19,7 +19,8 @@ struct FarFieldError {
 
 class SolidAnglePass {
  public:
-  /// `method`: one of the three names; also the pass name in timings. Throws Error(unexpected) for another.
+  /// `method`: one of the three names, or crown-shells: solid-angle-cosine of clustered spheres, which differs in
+  /// its spheres only; also the pass name in timings. Throws Error(unexpected) for another.
   SolidAnglePass(Device& device, const std::string& method, FarFieldError error = {}, int lanes = 0);
   /// The first `sphere_count` records of `spheres` shade; 0 leaves all open. `visibility`: [0, 1], sized like the
   /// planes. Adds validity code 16 to fragments within a sphere of another group.

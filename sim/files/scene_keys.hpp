@@ -157,6 +157,7 @@ void keys(Archive& a, SpeciesSource& species) {
     colour(albedo, "leaf", species.leaf_albedo, "of leaves");
     colour(albedo, "wood", species.wood_albedo, "of wood");
   });
+  a.integer("shells", species.shells, 1, 64, "most spheres around clusters of the foliage, for methods with shells");
   a.number("alpha_rho", species.alpha_rho, {0, 1e6, "1/m^3", false, false, -1},
            "eq. 6 of Hegeman et al. 2006; left out: from the foliage");
   a.section("reeves_blau", "constants of method reeves-blau", [&](auto& model) {
@@ -316,10 +317,11 @@ void keys(Archive& a, NearField& near_field) {
 template <class Archive>
 void keys(Archive& a, Methods& methods) {
   a.word("tree", methods.tree,
-         {"sphere-cap", "ellipsoid-cap", "reeves-blau", "crown-field", "crown-baked", "ambient", "none"},
+         {"sphere-cap", "ellipsoid-cap", "shells-cap", "shells-cap-levels", "reeves-blau", "crown-transmittance",
+          "crown-field", "crown-baked", "ambient", "none"},
          "within a crown");
   a.word("grass", methods.grass, {"grass-height", "ambient", "none"}, "among blades");
-  a.word("crowns", methods.crowns, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"},
+  a.word("crowns", methods.crowns, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"},
          "how crowns shade others");
   a.word("occluders", methods.occluders, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"},
          "how moving occluders shade others");

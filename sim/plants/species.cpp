@@ -63,7 +63,7 @@ Species build_species(const SpeciesSource& source, std::uint64_t seed, const Raw
 
   Species species;
   species.prototype = assemble(source.name, shape);
-  species.prototype.crown = fit_crown(species.prototype);
+  species.prototype.crown = fit_crown(species.prototype, source.shells);
   const SpeciesTraits sway = scaled_sway(preset.sway, preset.growth.height, species.prototype.high.z);
   species.trunk = source.trunk.value_or(sway.trunk);
   species.branch = source.branch.value_or(sway.branch);
@@ -73,6 +73,8 @@ Species build_species(const SpeciesSource& source, std::uint64_t seed, const Raw
   const auto given_or = [](double given, double derived) { return static_cast<float>(given >= 0 ? given : derived); };
   species.alpha_rho = given_or(source.alpha_rho, constants.alpha_rho);
   species.alpha_rho_ellipsoid = given_or(source.alpha_rho, constants.alpha_rho_ellipsoid);
+  species.alpha_rho_shells = given_or(source.alpha_rho, constants.alpha_rho_shells);
+  species.extinction = static_cast<float>(constants.extinction);
   species.reeves_blau_extinction = given_or(source.reeves_blau_extinction, constants.reeves_blau_extinction);
   species.opacity = static_cast<float>(constants.opacity);
   return species;

@@ -18,6 +18,8 @@ struct Species {
   SwayMode trunk, branch, leaf;
   float alpha_rho = 0;               // eq. 6 of Hegeman et al. 2006 in the crown's sphere, 1/m^3
   float alpha_rho_ellipsoid = 0;     // the same in the crown's ellipsoid, 1/m^3
+  float alpha_rho_shells = 0;        // the same in the nearest of its clustered spheres, 1/m^3
+  float extinction = 0;              // k of the crown's ellipsoid, 1/m
   float reeves_blau_extinction = 0;  // a of exp(-a depth), 1/m
   float opacity = 0;                 // 1 - mean transmittance of the crown's disc
 };

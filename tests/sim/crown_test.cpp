@@ -216,5 +216,34 @@ TEST(DeriveConstants, AreZeroWithoutACrown) {
   EXPECT_EQ(constants.opacity, 0);
 }
 
+TEST(ClusterSpheres, HoldEveryPointInTheSphereOfItsNearestCluster) {
+  // Three clouds far apart are found as they are.
+  Points points;
+  const glm::vec3 middles[] = {{0, 0, 0}, {20, 0, 3}, {0, 25, -4}};
+  for (std::uint64_t i = 0; i < 3; ++i)
+    for (const glm::vec3 point : random_cloud(400, i))
+      points.push_back(0.3f * (point - glm::vec3(3, -2, 7)) + middles[i]);
+  const std::vector<Sphere> spheres = cluster_spheres(points, 3);
+  ASSERT_EQ(spheres.size(), 3u);
+  for (const glm::vec3 point : points) {
+    double least = 1e9;
+    for (const Sphere& sphere : spheres)
+      least = std::min(least, glm::distance(glm::dvec3(point), sphere.centre) / sphere.radius);
+    EXPECT_LE(least, 1 + 1e-9);
+  }
+  for (const glm::vec3 middle : middles) {
+    double least = 1e9;
+    for (const Sphere& sphere : spheres) least = std::min(least, glm::distance(glm::dvec3(middle), sphere.centre));
+    EXPECT_LT(least, 2);
+  }
+}
+
+TEST(ClusterSpheres, AreFewerWhereThereAreFewerPlaces) {
+  EXPECT_TRUE(cluster_spheres({}, 4).empty());
+  EXPECT_TRUE(cluster_spheres({glm::vec3(1), glm::vec3(1)}, 4).empty());
+  EXPECT_EQ(cluster_spheres(cube_corners(1), 1).size(), 1u);
+  EXPECT_NEAR(cluster_spheres(cube_corners(1), 1)[0].radius, std::sqrt(3.0), 1e-6);
+}
+
 }  // namespace
 }  // namespace understory

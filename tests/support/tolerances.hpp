@@ -13,6 +13,10 @@ inline constexpr double arc_tangent = 5e-7;
 // Eq. 6: |x e^-x| <= 1/e times the relative error of f Vcap, about ten roundings of 6e-8, and the cap height's
 // cancellation R - s, one rounding of s <= R relative to h, to the power of 4, where h is still large enough to matter.
 inline constexpr double crown = 4e-6;
+// crown-transmittance: of sums of up to 25 terms below 4 with alternating signs, and of the three products of shells.
+inline constexpr double crown_transmittance = 3e-5;
+// 240 x 240 directions over a step of the transmittance at the horizon of the densest crown.
+inline constexpr double crown_quadrature = 3e-4;
 // The same in the ellipsoid's scaled space: six more roundings in front of it, scaled by up to 4 by flat ellipsoids.
 inline constexpr double ellipsoid_crown = 2e-5;
 // Two roundings of numbers below 1.

@@ -1,0 +1,76 @@
+// Visibility in crowns of even foliage (shared/crown_transmittance.h). Each fragment finds its crown through its owner,
+// a crown is shells[first[crown]] up to shells[first[crown + 1]]; fragments without a crown get 1. With several shells
+// the visibilities multiply: light passes all of them. Under SKY_DOME V holds the horizon, once.
+// One work-item per W fragments; planes are padded (host/passes/planes.hpp).
+#pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/crown_transmittance.h"
+#include "kernels/shared/owner_table.h"
+#include "kernels/shared/validity.h"
+
+/// V of one shell, of `open` light. `out`: lanes outside it.
+SHARED real shell_visibility(global const TransmittanceShell* shell, Direction position, Direction normal, real open,
+                             PRIVATE truth* out) {
+  const Direction offset = {position.x - shell->x, position.y - shell->y, position.z - shell->z};
+  ShellPlace place;
+  if (shell->sphere > 0)
+    place = place_in_sphere(offset, normal, shell->sphere);
+  else
+    place = place_in_shell(offset, normal, shell->to_unit, shell->radius);
+#ifdef SKY_DOME
+  real v = transmittance_under_dome(place, normal.z, shell->optical, shell->bend, shell->within);
+#else
+  real v = transmittance_within(place, shell->optical, shell->bend, shell->within);
+#endif
+  v = at_least(v, REAL(0.0));
+  *out = place.square > REAL(1.00001);  // a little is rounding, not outside
+  if (ANY(*out)) {
+    real blocked = blocked_outside(place, shell->opacity, shell->outside);
+#ifdef SKY_DOME
+    blocked *= share_above_horizon(place);
+#endif
+    v = PICK(*out, at_least(open - blocked, REAL(0.0)), v);
+  }
+  return v;
+}
+
+kernel void shade_crown_transmittance(global const float* position_x, global const float* position_y,
+                                      global const float* position_z, global const float* normal_x,
+                                      global const float* normal_y, global const float* normal_z,
+                                      global const uint* owner, global const int* owner_crown, uint owners,
+                                      global const uint* first, uint crown_count,
+                                      global const TransmittanceShell* shells, uint shell_count, uint items,
+                                      global float* visibility, global uint* validity) {
+  const uint i = get_global_id(0);
+  if (i >= items) return;
+  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  real v = REAL(1.0);
+  truth outside = (truth)(0);
+  for (truth left = ALL_LANES; ANY(left);) {
+    const uint row = next_owner(owners_here, left);
+    const truth lanes = left & (owners_here == (bits)(row));
+    left &= NOT(lanes);
+    const int crown = owner_crown[row];
+    if (crown < 0 || crown >= (int)crown_count) continue;
+    const Direction position = {LOAD(position_x, i), LOAD(position_y, i), LOAD(position_z, i)};
+    const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
+#ifdef SKY_DOME
+    const real open = open_dome(normal.z);
+#else
+    const real open = REAL(1.0);
+#endif
+    const uint begin = first[crown], end = min(first[crown + 1], shell_count);
+    truth out = ALL_LANES;
+    real product = open;
+    for (uint j = begin; j < end; ++j) {
+      truth out_of_this;
+      const real through = shell_visibility(shells + j, position, normal, open, &out_of_this);
+      out &= out_of_this;
+      product = j == begin ? through : product * (through / at_least(open, REAL(1e-6)));
+    }
+    if (begin < end) product *= (real)(shells[begin].near_share);
+    v = PICK(lanes, as_visibility(product), v);
+    outside |= lanes & out;
+  }
+  STORE(v, visibility, i);
+  if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
+}
