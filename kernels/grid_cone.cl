@@ -2,6 +2,7 @@
 // fragment's tangent plane and put together with the others' (Malmer et al. 2005 section 5). V_c. A body's own fragments
 // need no rule of their own: what it occludes below their plane is clipped away.
 // -DCOMBINE=multiply, simple or merge (shared/running_cone.h). -DPAPER_CONE: every cone is opaque, as in the paper.
+// -DCONES: stores the running cone as well, for the light of an environment (section 5.3).
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/fragment_tiles.h"
@@ -26,12 +27,23 @@ SHARED Cone cone_for(const Occluded o, truth own) {
 #endif
 }
 
+#ifdef CONES
+#define CONE_PLANES                                                                                                   \
+  , global float *axis_x, global float *axis_y, global float *axis_z, global float *aperture, global float *share
+#define STORE_CONE(cone, blocked)                                                                                     \
+  STORE((cone).x, axis_x, i), STORE((cone).y, axis_y, i), STORE((cone).z, axis_z, i);                                  \
+  STORE((cone).aperture, aperture, i), STORE(blocked, share, i)
+#else
+#define CONE_PLANES
+#define STORE_CONE(cone, blocked)
+#endif
+
 kernel void shade_grid_cone(global const float* position_x, global const float* position_y,
                             global const float* position_z, global const float* normal_x, global const float* normal_y,
                             global const float* normal_z, global const uint* owner, global const int* owner_group,
                             uint owners, global const GridRecord* grids, uint grid_count, global const uchar* samples,
                             global const uint* listed, global const uint* lists, uint capacity, uint row_length,
-                            uint items, global float* visibility, global uint* validity) {
+                            uint items, global float* visibility, global uint* validity CONE_PLANES) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const uint tile = tile_of_unit(i * W / UNIT, row_length);
@@ -42,6 +54,7 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
       ((LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
   if (count == 0 || !ANY(drawn)) {
     STORE(REAL(1.0), visibility, i);
+    STORE_CONE(no_cone(), REAL(0.0));
     return;
   }
   const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
@@ -63,6 +76,8 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
     border |= p.border & drawn;
   }
   const real v = JOIN(visibility_, COMBINE)(running, a, b, c);
-  STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
+  const real seen = PICK(drawn, as_visibility(v), REAL(1.0));
+  STORE(seen, visibility, i);
+  STORE_CONE(running, REAL(1.0) - seen);
   if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
 }

@@ -35,19 +35,20 @@ kernel void list_tile_grids(global const float* position_x, global const float* 
   const uint tile = get_global_id(0);
   if (tile >= tile_total) return;
   const uint column = tile % tile_columns(row_length), top = tile / tile_columns(row_length) * TILE_ROWS;
-  const Range none = {(real)(INFINITY), (real)(-INFINITY)};
-  Range x_range = none, y_range = none, z_range = none;
+  TileBounds box = no_bounds();
   for (uint row = top; row < top + TILE_ROWS; ++row) {
-    const uint unit = first_unit(row, row_length) + column;
-    if (unit >= min(first_unit(row + 1, row_length), units)) continue;
-    const real x = LOAD(position_x, unit), y = LOAD(position_y, unit), z = LOAD(position_z, unit);
-    const truth drawn = ((LOAD(validity, unit) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
-    include(&x_range, x, drawn);
-    include(&y_range, y, drawn);
-    include(&z_range, z, drawn);
+    const uint begin = first_unit(row, row_length) + column * TILE_UNITS;
+    const uint end = min(min(begin + TILE_UNITS, first_unit(row + 1, row_length)), units);
+    for (uint unit = begin; unit < end; ++unit) {
+      const real x = LOAD(position_x, unit), y = LOAD(position_y, unit), z = LOAD(position_z, unit);
+      const truth drawn = ((LOAD(validity, unit) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
+      include(&box.x, x, drawn);
+      include(&box.y, y, drawn);
+      include(&box.z, z, drawn);
+    }
   }
-  const float low[3] = {lowest(x_range.low), lowest(y_range.low), lowest(z_range.low)};
-  const float high[3] = {highest(x_range.high), highest(y_range.high), highest(z_range.high)};
+  const float low[3] = {lowest(box.x.low), lowest(box.y.low), lowest(box.z.low)};
+  const float high[3] = {highest(box.x.high), highest(box.y.high), highest(box.z.high)};
 
   uint count = 0;
   for (uint first = 0; first < grid_count && low[0] <= high[0]; first += W) {

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t least_grid_size = 2, largest_grid_size = 512;
 
 /// How occlusion ends at the border. `fade`: the traced values, times a weight that falls to 0 over the outer 1/16 of
 /// the box. `rescale`: the paper's section 3.3.2, max(0, (a - M)/(1 - M)) with M the largest value on the faces, which
-/// takes M from every value in the box: four times the error (bench/README.md).
+/// takes M from every value in the box: four times the error (tests/kernels/grid_accuracy_test.cpp).
 enum class GridBorder { fade, rescale };
 
 /// Occluded directions at one point: their share of the full sphere, eq. 5, in [0, 1], and their mean direction times

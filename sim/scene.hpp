@@ -132,7 +132,8 @@ struct Keyframe {
 struct OccluderPart {
   std::string name;
   enum class Shape { box, ellipsoid, capsule, mesh, stacked } shape = Shape::box;
-  glm::dvec3 size{1};          // box: edges; ellipsoid: diameters; capsule: (diameter, diameter, whole length along z)
+  glm::dvec3 size{1};          // box: edges; ellipsoid: diameters; capsule: (diameter, diameter, whole length along z);
+                               // mesh: factors beside `scale`
   std::filesystem::path mesh;  // mesh only
   std::string mesh_object;     // mesh only: object inside the file; empty: all
   UpAxis up = UpAxis::y;       // mesh only
@@ -177,18 +178,27 @@ struct NearField {
   std::string combine = "product";  // with the other terms: product, minimum
 };
 
+/// How the grids of moving occluders are baked (host/trace/grid_bake.hpp).
+struct GridChoice {
+  int size = 32;          // samples per axis
+  double epsilon = 0.02;  // eq. 4 of Malmer et al. 2005. They take 0.1; what bodies of many parts shade reaches further
+  int rays = 256;         // per sample
+};
+
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
 struct Methods {
   /// sphere-cap, ellipsoid-cap, shells-cap, shells-cap-levels, reeves-blau, crown-transmittance, crown-field,
   /// crown-baked, ambient, none
   std::string tree = "sphere-cap";
   std::string grass = "grass-height";  // grass-height, ambient, none
-  std::string crowns =
-      "solid-angle-cosine";  // how crowns shade others: solid-angle, -exact, -cosine, crown-shells, none
-  std::string occluders = "solid-angle-cosine";  // the same for moving occluders
-  std::string near = "none";                     // obscurance-point, obscurance-line, obscurance-area, none
-  NearField near_field = {};                     // of `near`
-  double ambient = 0.5;                          // the constant of `ambient`
+  /// How crowns shade others: solid-angle, -exact, -cosine, crown-shells, none.
+  std::string crowns = "solid-angle-cosine";
+  std::string occluders = "solid-angle-cosine";  // solid-angle, -exact, -cosine, grid, grid-cone, none
+  std::string combine = "merge";                 // how `grid-cone` puts occluders together: multiply, simple, merge
+  GridChoice grid = {};
+  std::string near = "none";  // obscurance-point, obscurance-line, obscurance-area, none
+  NearField near_field = {};  // of `near`
+  double ambient = 0.5;       // the constant of `ambient`
 };
 
 struct Scene {

@@ -26,7 +26,7 @@ std::vector<RawMesh::Part> mesh_parts(const OccluderPart& part, const std::strin
     throw Error(ErrorKind::invalid_input, fmt::format("{}.object: `{}` is not in {} (allowed: {})", key,
                                                       part.mesh_object, part.mesh.string(), names));
   for (RawMesh::Part& piece : chosen)
-    for (glm::vec3& position : piece.positions) position *= static_cast<float>(part.scale);
+    for (glm::vec3& position : piece.positions) position *= glm::vec3(part.scale * part.size);
   return chosen;
 }
 

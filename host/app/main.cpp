@@ -75,6 +75,7 @@ int main(int argument_count, char** arguments) {
   add_validate(program, chosen);
   add_schema(program, chosen);
   add_calibrate(program, chosen);
+  add_bake(program, chosen);
   add_bench(program, chosen);
   add_devices(program, chosen);
   add_cache(program, chosen);

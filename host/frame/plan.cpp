@@ -42,10 +42,12 @@ void check_names(const Methods& methods) {
                 {"sphere-cap", "ellipsoid-cap", "shells-cap", "shells-cap-levels", "reeves-blau", "crown-transmittance",
                  "crown-field", "crown-baked", "ambient", "none"});
   require_known("grass", methods.grass, {"grass-height", "ambient", "none"});
-  const auto solid_angles = {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
   require_known("crowns", methods.crowns,
                 {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"});
-  require_known("occluders", methods.occluders, solid_angles);
+  require_known("occluders", methods.occluders,
+                {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "grid", "grid-self-paper", "grid-cone",
+                 "grid-cone-paper", "none"});
+  require_known("combine", methods.combine, {"multiply", "simple", "merge"});
   require_known("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"});
 }
 
@@ -75,7 +77,10 @@ void plan_visibility(const Contents& contents, const Methods& methods, Plan& pla
   const std::string occluders = contents.occluders ? methods.occluders : "none";
   if (crowns != "none")
     plan.passes.push_back({crowns, "solid_angle", crowns == occluders ? "crowns and moving occluders" : "crowns"});
-  if (occluders != "none" && occluders != crowns) plan.passes.push_back({occluders, "solid_angle", "moving occluders"});
+  if (occluders != "none" && occluders != crowns) {
+    const bool cone = occluders.starts_with("grid-cone"), grid = occluders.starts_with("grid");
+    plan.passes.push_back({occluders, cone ? "grid_cone" : grid ? "grid" : "solid_angle", "moving occluders"});
+  }
   plan_near_field(methods, plan);
   plan.passes.push_back({"combine", "combine", "every frame"});
   if (contents.environment) plan.passes.push_back({"environment", "environment", "environment: map"});

@@ -5,6 +5,7 @@
 
 #include "host/frame/crown_bakes.hpp"
 #include "host/frame/crown_records.hpp"
+#include "host/frame/occluder_grids.hpp"
 #include "host/frame/tree_model.hpp"
 #include "host/passes/ambient.hpp"
 #include "host/passes/combine.hpp"
@@ -67,6 +68,7 @@ struct VisibilityPasses::Impl {
   std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
   std::optional<NearFieldPasses> near;
   ObscuranceView view;
+  std::optional<OccluderGrids> grids;  // of occluders, with a grid method
   CombinePass combine;
   std::optional<EnvironmentLight> environment;
 };
@@ -97,6 +99,10 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
     add_term("open-dome");
   }
   if (plan.has("environment")) environment.emplace(device, *world, padded_fragments);
+  if (is_grid_method(methods.occluders) && plan.has(methods.occluders)) {
+    grids.emplace(device, *world, methods, plan.has("environment") ? padded_fragments : 0);
+    add_term(methods.occluders);
+  }
   for (const PlannedPass& pass : plan.passes) {
     if (pass.program != "solid_angle") continue;
     shadings.push_back({SolidAnglePass(device, pass.name),
@@ -144,6 +150,7 @@ VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
   for (const SphereShading& shading : shadings) (shading.crowns ? all.crowns : all.occluders) = term(shading.method);
   all.near = term(methods.near);
   all.near_is_limit = methods.near_field.combine == "minimum";
+  if (grids) all.occluders = term(methods.occluders);
   // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md); bakes are traced under the scene's sky.
   if (grass) all.horizon_classes |= class_bit(SurfaceClass::blade);
   if (field || baked || (tree && tree->has_horizon()))
@@ -166,8 +173,10 @@ void VisibilityPasses::run(const Pose* pose, const OwnerTables& owners, Fragment
   impl_->run_own_models(pose, owners, planes);
   if (pose) impl_->run_spheres(*pose, owners, planes);
   if (impl_->near) impl_->near->run(planes, impl_->view, impl_->terms.at(impl_->methods.near));
+  if (pose && impl_->grids) impl_->grids->run(*pose, planes, owners, impl_->terms.at(impl_->methods.occluders));
   impl_->combine.run(planes, owners, impl_->combined_terms(), impl_->visibility);
-  if (impl_->environment) impl_->environment->run(planes, owners, impl_->visibility, nullptr, eye);
+  const ConePlanes* cones = impl_->grids ? impl_->grids->cones() : nullptr;
+  if (impl_->environment) impl_->environment->run(planes, owners, impl_->visibility, cones, eye);
 }
 
 const Buffer<std::array<std::uint32_t, 2>>* VisibilityPasses::baked_faces() const {

@@ -2,6 +2,7 @@
 // section 5).
 #pragma once
 #include "host/opencl/kernel.hpp"
+#include "host/passes/cone_planes.hpp"
 #include "host/passes/lanes.hpp"
 #include "host/passes/planes.hpp"
 #include "host/passes/tile_grids.hpp"
@@ -11,15 +12,19 @@ namespace understory {
 class GridConePass {
  public:
   /// `method`: grid-cone, or grid-cone-paper; `combine`: multiply, simple or merge (kernels/shared/running_cone.h).
-  /// Throws Error(unexpected) for others.
-  GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes = 0);
+  /// `cones`: run fills cone planes. Throws Error(unexpected) for other names.
+  GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes = 0,
+               bool cones = false);
   /// `grids`: packed_cone samples. `visibility`: V_c, sized like the planes; 1 outside all grids. Adds validity code
   /// 128 to fragments near the border of a grid.
-  void run(const FragmentPlanes& planes, const OwnerTables& owners, const GridTable& grids, Buffer<float>& visibility);
+  /// `cones`: sized like the planes, exactly for a pass that was built for them.
+  void run(const FragmentPlanes& planes, const OwnerTables& owners, const GridTable& grids, Buffer<float>& visibility,
+           const ConePlanes* cones = nullptr);
 
  private:
   std::string method_;
   Lanes lanes_;
+  bool cones_;
   TileGridsPass tiles_;
   Kernel kernel_;
 };

@@ -65,13 +65,16 @@ SHARED void add_axes(PRIVATE RunningCone* running, const RunningCone next) {
   running->z = z * inverse;
 }
 
-SHARED void combine_multiply(PRIVATE RunningCone* running, const RunningCone next) {
-  running->cosine = fma(REAL(1.0) - running->cosine, next.cosine, running->cosine);
-}
-
 SHARED void combine_simple(PRIVATE RunningCone* running, const RunningCone next) {
   add_axes(running, next);
   running->share = fma(REAL(1.0) - running->share, next.share, running->share);
+  running->aperture = running->share;
+}
+
+/// Its cone is the one of `simple`.
+SHARED void combine_multiply(PRIVATE RunningCone* running, const RunningCone next) {
+  combine_simple(running, next);
+  running->cosine = fma(REAL(1.0) - running->cosine, next.cosine, running->cosine);
 }
 
 /// Of what two cones share geometrically each blocks its opacity, independently. Its cosine is the mean of the cones'

@@ -256,12 +256,13 @@ void keys(Archive& a, OccluderPart& part) {
   }
   if (a.alternative("mesh", part.shape, Shape::mesh)) {
     a.file("mesh", part.mesh, "OBJ, PLY, glTF, GLB");
+    a.numbers("stretch", components(part.size), {0.001, 1000, ""}, "factors along x, y, z beside `scale`");
   }
   a.text("object", part.mesh_object, "the object inside the mesh; left out: all of them");
   a.up_axis("up", part.up, part.mesh);
   a.number("scale", part.scale, {1e-6, 1e6, ""}, "times the mesh's size");
   keyframes(a, part.keyframes, "movement within the occluder, smooth through all; none or one: fixed");
-  a.goes_with("mesh", {"object", "up", "scale"});
+  a.goes_with("mesh", {"object", "up", "scale", "stretch"});
 }
 
 template <class Archive>
@@ -323,11 +324,19 @@ void keys(Archive& a, Methods& methods) {
   a.word("grass", methods.grass, {"grass-height", "ambient", "none"}, "among blades");
   a.word("crowns", methods.crowns, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"},
          "how crowns shade others");
-  a.word("occluders", methods.occluders, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"},
+  a.word("occluders", methods.occluders,
+         {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "grid", "grid-self-paper", "grid-cone",
+          "grid-cone-paper", "none"},
          "how moving occluders shade others");
   a.word("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"},
          "near field, from depth and normals");
   a.record("near_field", methods.near_field, "how `near` samples");
+  a.word("combine", methods.combine, {"multiply", "simple", "merge"}, "how grid-cone puts occluders together");
+  a.section("grid", "how the grids of moving occluders are baked", [&](auto& grid) {
+    grid.integer("size", methods.grid.size, 2, 512, "samples per axis");
+    grid.number("epsilon", methods.grid.epsilon, {0.001, 1, ""}, "share of the sphere that its border may neglect");
+    grid.integer("rays", methods.grid.rays, 16, 65536, "rays per sample");
+  });
   a.number("ambient", methods.ambient, zero_to(1), "the constant of method `ambient`");
 }
 

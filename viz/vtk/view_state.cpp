@@ -30,6 +30,8 @@ void caption(Picture& picture, const std::string& text, int x) {
 
 ViewState::ViewState(const ViewOptions& options) : scene_methods_(options.methods) {
   const std::vector<std::string> shading{"solid-angle", "solid-angle-exact", "solid-angle-cosine", "none"};
+  std::vector<std::string> occluders = shading;
+  occluders.insert(occluders.end(), {"grid", "grid-cone"});
   choices_ = {
       choice("play", ' ', {"on", "off"}, options.playing ? "on" : "off"),
       choice("show", 'v', {"picture", "visibility"}, "picture"),
@@ -37,7 +39,7 @@ ViewState::ViewState(const ViewOptions& options) : scene_methods_(options.method
       choice("tree", 't', {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"}, scene_methods_.tree),
       choice("grass", 'g', {"grass-height", "ambient", "none"}, scene_methods_.grass),
       choice("crowns", 'c', shading, scene_methods_.crowns),
-      choice("occluders", 'o', shading, scene_methods_.occluders),
+      choice("occluders", 'o', occluders, scene_methods_.occluders),
   };
 }
 
