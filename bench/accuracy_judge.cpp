@@ -19,7 +19,7 @@ constexpr int picture_rays = 128;  // a pixel
 constexpr int reference_rays = 16384;
 constexpr double field_of_view = 0.6;
 
-/// The judge's own choice while it renders for positions only: no pass but the geometry and, for grass, eq. 9.
+/// While only positions are rendered.
 Methods no_methods() { return {.tree = "none", .grass = "none", .crowns = "none", .occluders = "none"}; }
 
 World world_of(const AccuracySubject& subject) {
@@ -43,7 +43,7 @@ Bounds bounds_of(const World& world) {
   for (const Instance& instance : world.instances) {
     if (instance.role == Instance::Role::terrain) continue;
     const Prototype& prototype = world.prototypes[instance.prototype];
-    // Turned about the trunk, a box may reach as far as its diagonal; half of that is seldom exceeded.
+    // Yaw is left out: cameras look at the sphere about the box, which hardly grows with it.
     bounds.add(instance.position + instance.scale * glm::dvec3(prototype.low),
                instance.position + instance.scale * glm::dvec3(prototype.high));
   }
