@@ -78,6 +78,27 @@ void print_ways(ObscuranceScene& scene, const Plane& near_truth, const Plane& tr
       of(Kind::lines, 5) / of(Kind::points, 12), of(Kind::lines, 9) / of(Kind::points, 33), cost.back());
 }
 
+/// Against the same truth: the ball as long as the rays and as the paper has it, and a smaller one of thick leaves,
+/// which is closer to rays that end at their first hit.
+void print_tuned(ObscuranceScene& scene, const Plane& near_truth, const std::vector<std::size_t>& pixels,
+                 double reach) {
+  fmt::print(
+      "| lines, blur 4 | ball, m | thickness, m | RMSE against traced obscurance | ms |\n|---|---|---|---|---|\n");
+  for (const double share : {1.0, 0.6})
+    for (const double thickness : {0.0, 4.0})
+      for (const int lines : {5, 16}) {
+        NearField options;
+        options.radius = share * reach;
+        options.thickness = thickness * options.radius;
+        const ObscuranceWay way{ObscuranceWay::Kind::lines, lines, 1};
+        const std::vector<double> cost = scene.cost({way}, options, 3);
+        const Plane plane = scene.blurred(scene.shade(way, options), options);
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.4f} | {:.1f} |\n", lines, options.radius, options.thickness,
+                   rmse(picked(plane, pixels), near_truth), cost[0] + cost[1]);
+      }
+  fmt::print("\n");
+}
+
 void print_peer(ObscuranceScene& scene, const PosedGeometry& geometry, const Plane& near_truth,
                 const std::vector<std::size_t>& pixels, const NearField& options, double blurred_ms) {
   for (const bool blur : {false, true}) {
@@ -118,12 +139,17 @@ void print_scene(Device& device, const char* title, const char* file, const Sett
   const std::vector<std::size_t> pixels = scene.drawn_pixels(truth_step);
   const Plane truth = traced(tracer, frame, pixels, std::numeric_limits<float>::infinity(), settings.rays);
   for (const double radius : {0.25, 1.0}) {
+    const Plane near_truth = traced(tracer, frame, pixels, static_cast<float>(radius), settings.rays);
     NearField options;
     options.radius = radius;
-    fmt::print("## {}, radius {} m\n\n", title, radius);
-    const Plane near_truth = traced(tracer, frame, pixels, static_cast<float>(radius), settings.rays);
-    print_ways(scene, near_truth, truth, pixels, options);
-    print_steadiness(scene, moved_scene, options);
+    for (const double thickness : {0.1 * radius, 0.0}) {
+      options.thickness = thickness;
+      const std::string depth = thickness > 0 ? fmt::format("{} m thick", thickness) : "endlessly thick";
+      fmt::print("## {}, radius {} m, {}\n\n", title, radius, depth);
+      print_ways(scene, near_truth, truth, pixels, options);
+      print_steadiness(scene, moved_scene, options);
+    }
+    print_tuned(scene, near_truth, pixels, radius);
     const std::vector<double> cost = scene.cost({{ObscuranceWay::Kind::lines, 5, 1}}, options, repetitions);
     print_peer(scene, geometry, near_truth, pixels, options, cost[0] + cost[1]);
     fmt::print("\n");

@@ -38,7 +38,7 @@ SHARED Moments moments_of_level(global const float* mean, global const float* va
   return sum;
 }
 
-/// Over a square of `side` pixels around (x, y), between the two levels next to it.
+/// Over texels of `side` pixels around (x, y), between the two levels next to it.
 SHARED Moments moments_at(global const float* mean, global const float* variance, global const float* coverage,
                           global const MomentLevel* levels, int level_count, real x, real y, real side) {
   // The exponent and the mantissa: a logarithm with straight pieces.
@@ -65,7 +65,8 @@ SHARED real area_obscurance(global const float* mean, global const float* varian
   const real c = cosine_of_turn(turn), s = sine_of_turn(turn);
   const real xx = fma(to.spread_xx, c, to.spread_xy * s), yx = fma(to.spread_xy, c, to.spread_yy * s);
   const real xy = fma(to.spread_xx, s, -to.spread_xy * c), yy = fma(to.spread_xy, s, -to.spread_yy * c);
-  const real side = ball.pixels * sqrt(3.14159265f / (float)count);
+  // The level whose Gaussian, of deviation 2^l/2 pixels, is as wide as a square of the sample's area.
+  const real side = ball.pixels * sqrt(3.14159265f / (3.0f * (float)count));
   const real spread_scale = to.ray_length * ball.per_radius * SPREAD;
 #ifdef NORMALS
   const real slope = REAL(1.0) / (to.facing * to.scale * (real)(setting->focal));

@@ -83,14 +83,14 @@ TEST(ObscuranceArea, MomentsAreThoseOfPlainSums) {
 TEST(ObscuranceArea, FlatSurfacesAreOpen) {
   UNDERSTORY_NEEDS_DEVICE();
   NearField options;
-  for (const double field_of_view : {0.1, 1.0, 0.0})
+  for (const double field_of_view : {0.1, 0.4, 0.0})  // no horizon comes into view
     for (const double tilt : {0.0, 50.0, 79.5})
       for (const int samples : {1, 5, 12}) {
         const ObscuranceView view = odd_view(97, 81, field_of_view);
         const glm::dvec3 normal(std::sin(tilt * pi / 180) * 0.6, std::sin(tilt * pi / 180) * 0.8,
                                 -std::cos(tilt * pi / 180));
-        const double depth = view.perspective ? 0.1 * view.focal * 0.5 : 7;  // the ball spans ten pixels
-        options.radius = 0.5;
+        options.radius = view.perspective ? 0.5 : 0.2;
+        const double depth = view.perspective ? view.focal * 0.5 / 4 : 7;  // the ball spans four pixels
         const Shaded shaded = shade(image_of(view, plane_surface({0, 0, depth}, normal)), samples, options);
         for (int y = 32; y < 49; ++y)  // where no footprint reaches the border
           for (int x = 40; x < 57; ++x)
@@ -111,7 +111,7 @@ TEST(ObscuranceArea, OneSampleDarkensCreases) {
   const int edge = static_cast<int>(view.centre_x);
   const auto at = [&](int x) { return shaded.visibility[static_cast<std::size_t>(32 * 96 + x)]; };
   EXPECT_LT(at(edge - 2), 0.8);
-  EXPECT_EQ(at(edge - 30), 1) << "far from the step";
+  EXPECT_GT(at(edge - 30), 0.99) << "far from the step";
   EXPECT_LT(at(edge - 2), at(edge - 8));
 }
 

@@ -36,11 +36,11 @@ TEST(ObscuranceBlur, EvensOutTheRotationPatternOnATiltedPlane) {
   for (const double field_of_view : {0.8, 0.0}) {
     const ObscuranceView view = odd_view(37, 29, field_of_view);
     const Shaded shaded =
-        blur(image_of(view, plane_surface({0, 0, 5}, glm::normalize(glm::dvec3(1, 0.5, -0.5)))), 4, 0.1);
+        blur(image_of(view, plane_surface({0, 0, 5}, glm::normalize(glm::dvec3(1, 0.5, -1.5)))), 4, 0.1);
     for (int y = 4; y < 25; ++y)
       for (int x = 4; x < 33; ++x)
         if (at(shaded, view, x, y) != 1) {
-          EXPECT_NEAR(at(shaded, view, x, y), 0.5, 1e-4) << x << ' ' << y;
+          EXPECT_NEAR(at(shaded, view, x, y), 0.5, 5e-4) << x << ' ' << y;
         }
   }
 }
@@ -63,7 +63,7 @@ TEST(ObscuranceBlur, StopsAtEdgesOfDepthAndOfNormals) {
       ObscuranceBlurPass(device, lanes).run(planes, view, 6, 0.2, v, scratch);
     });
     for (int x = 0; x < 35; ++x)
-      EXPECT_EQ(at(shaded, view, x, 9), reference::pixel_ray(view, x, 9).origin.x > 0 ? 1.0f : 0.0f) << x;
+      EXPECT_NEAR(at(shaded, view, x, 9), reference::pixel_ray(view, x, 9).origin.x > 0 ? 1 : 0, 1e-6) << x;
   }
 }
 
