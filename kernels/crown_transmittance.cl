@@ -42,15 +42,13 @@ kernel void shade_crown_transmittance(global const float* position_x, global con
                                       global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  const whole crowns_here = signed_owner_column(owner_crown, owner_row(LOAD(owner, i), owners));
   real v = REAL(1.0);
   truth outside = (truth)(0);
-  for (truth left = ALL_LANES; ANY(left);) {
-    const uint row = next_owner(owners_here, left);
-    const truth lanes = left & (owners_here == (bits)(row));
+  for (truth left = (crowns_here >= 0) & (crowns_here < (whole)((int)crown_count)); ANY(left);) {
+    const uint crown = next_owner(TO_BITS(crowns_here), left);
+    const truth lanes = left & (crowns_here == (whole)((int)crown));
     left &= NOT(lanes);
-    const int crown = owner_crown[row];
-    if (crown < 0 || crown >= (int)crown_count) continue;
     const Direction position = {LOAD(position_x, i), LOAD(position_y, i), LOAD(position_z, i)};
     const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
 #ifdef SKY_DOME
