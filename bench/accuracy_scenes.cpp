@@ -16,22 +16,23 @@ constexpr const char* crowns_methods[] = {"none", "solid-angle-cosine", "crown-s
 
 struct MeshSubject {
   const char *name, *file;
-  std::vector<std::string> leaf_materials;
+  std::vector<std::string> leaf_materials, blade_materials;
+  bool is_grass() const { return !blade_materials.empty(); }
 };
 
 const std::vector<MeshSubject>& mesh_subjects() {
   static const std::vector<std::string> usual = SpeciesSource{}.leaf_materials;
-  static const std::vector<std::string> grass = {"leaf*", "stem*", "ear*", "blade*"};
+  static const std::vector<std::string> grass = {"leaf*", "blade*"};  // stems and ears are wood: closed surfaces
   static const std::vector<MeshSubject> subjects = {
-      {"black oak", "plants/tree_broadleaf_black_oak.glb", usual},
-      {"poplar", "plants/tree_poplar_lombardy.glb", usual},
-      {"bougainvillea", "plants/shrub_bougainvillea.glb", usual},
-      {"walnut", "plants/tree_walnut_digitized.glb", usual},
-      {"coffeetree", "plants/tree_scanned_qsm_coffeetree.glb", usual},
-      {"eucalyptus", "plants/sapling_eucalyptus_pilularis.glb", usual},
-      {"birch", "plants/birch.glb", usual},
-      {"wheat", "plants/grass_wheat_6x6.glb", grass},
-      {"lawn", "plants/grass_lawn_2m.glb", grass},
+      {"black oak", "plants/tree_broadleaf_black_oak.glb", usual, {}},
+      {"poplar", "plants/tree_poplar_lombardy.glb", usual, {}},
+      {"bougainvillea", "plants/shrub_bougainvillea.glb", usual, {}},
+      {"walnut", "plants/tree_walnut_digitized.glb", usual, {}},
+      {"coffeetree", "plants/tree_scanned_qsm_coffeetree.glb", usual, {}},
+      {"eucalyptus", "plants/sapling_eucalyptus_pilularis.glb", usual, {}},
+      {"birch", "plants/birch.glb", usual, {}},
+      {"wheat", "plants/grass_wheat_6x6.glb", {}, grass},
+      {"lawn", "plants/grass_lawn_2m.glb", {}, grass},
   };
   return subjects;
 }
@@ -52,7 +53,8 @@ void put_on_ground(Scene& scene, double half_extent) {
 }
 
 SpeciesSource species_of(const std::string& name, const std::filesystem::path& file,
-                         const std::vector<std::string>& leaf_materials) {
+                         const std::vector<std::string>& leaf_materials,
+                         const std::vector<std::string>& blade_materials = {}) {
   if (!std::filesystem::exists(file))
     throw Error(
         ErrorKind::invalid_input,
@@ -61,6 +63,7 @@ SpeciesSource species_of(const std::string& name, const std::filesystem::path& f
   species.name = name;
   species.mesh = file;
   species.leaf_materials = leaf_materials;
+  species.blade_materials = blade_materials;
   return species;
 }
 
@@ -82,6 +85,16 @@ std::vector<AccuracyMethod> each_tree_method(const std::string& crowns) {
   return methods;
 }
 
+std::vector<AccuracyMethod> each_grass_method() {
+  std::vector<AccuracyMethod> methods;
+  for (const char* grass : grass_methods) {
+    Methods choice;
+    choice.grass = grass;
+    methods.push_back({grass, choice});
+  }
+  return methods;
+}
+
 void add_plants(const std::filesystem::path& data, std::vector<AccuracySubject>& subjects) {
   for (const char* setting : {"sphere", "dome", "gust"})
     for (const MeshSubject& mesh : mesh_subjects()) {
@@ -89,9 +102,10 @@ void add_plants(const std::filesystem::path& data, std::vector<AccuracySubject>&
       subject.name = mesh.name;
       subject.setting = setting;
       subject.scene = empty_scene();
-      subject.scene.species.push_back(species_of(mesh.name, data / mesh.file, mesh.leaf_materials));
+      subject.scene.species.push_back(
+          species_of(mesh.name, data / mesh.file, mesh.leaf_materials, mesh.blade_materials));
       plant(subject.scene, mesh.name, {0, 0}, 0);
-      subject.methods = each_tree_method("solid-angle-cosine");
+      subject.methods = mesh.is_grass() ? each_grass_method() : each_tree_method("solid-angle-cosine");
       subject.ground = subject.setting != "sphere";
       subject.truth_itself = subject.name == "black oak" && subject.setting != "gust";
       if (subject.ground) put_on_ground(subject.scene, 60);
@@ -139,11 +153,7 @@ void add_grass(std::vector<AccuracySubject>& subjects) {
     field.density = sward.density;
     field.height = {sward.height, 0.25 * sward.height};
     subject.scene.grass.push_back(field);
-    for (const char* grass : grass_methods) {
-      Methods choice;
-      choice.grass = grass;
-      subject.methods.push_back({grass, choice});
-    }
+    subject.methods = each_grass_method();
     subject.ground = true;
     subject.elevation = 0.6;
     subjects.push_back(subject);

@@ -173,9 +173,9 @@ KernelCase ambient_case() {
 
 KernelCase grass_height_case() {
   return {"grass-height",
-          5,
+          4,
           2,
-          8,
+          6,
           float_error,
           [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
             return [&, pass = std::make_shared<GrassHeightPass>(device)] {
@@ -184,7 +184,7 @@ KernelCase grass_height_case() {
           },
           [](const BenchFragments& all, const BenchFragment& f) {
             if (class_of(all, f) != SurfaceClass::blade) return 1.0;
-            return grass_height(double(f.height), double(f.blade_length), double(f.normal.z));
+            return grass_height(double(f.height), double(f.blade_length));
           }};
 }
 
@@ -228,6 +228,7 @@ std::vector<KernelCase> kernel_cases() {
   return {ambient_case(),
           open_dome_case(),
           grass_height_case(),
+          grass_transmittance_case(),
           crown_case<ReevesBlauPass>("reeves-blau", 5, 32, reeves_blau_reference),
           crown_case<SphereCapPass>("sphere-cap", 8, 55, sphere_cap_reference),
           crown_case<EllipsoidCapPass>("ellipsoid-cap", 8, 105, ellipsoid_cap_reference),

@@ -19,7 +19,8 @@ struct KernelCase {
 };
 
 std::vector<KernelCase> kernel_cases();
-/// In a file of its own, for what it needs beside the fragments.
+/// In files of their own, for what they need beside the fragments.
 KernelCase environment_case();
+KernelCase grass_transmittance_case();
 
 }  // namespace understory

@@ -1,6 +1,6 @@
 // Turns visible triangles into planes: position on the triangle under the pixel's sample, face normal turned to the
 // viewer (leaves are two-sided), camera depth, owner, validity; with -DGRASS_HEIGHT also the height of a blade's
-// fragment above its root and the blade's length; with -DREST_POINT also where a mesh fragment and its face normal were
+// fragment above its root and the blade's length, or the height of the mesh it is part of; with -DREST_POINT also where a mesh fragment and its face normal were
 // at rest, prototype frame; with -DFACE_TEXEL the texel of its face (crown_baked.h). One work-item per fragment, padded
 // fragments are background.
 #pragma OPENCL FP_CONTRACT OFF
@@ -20,7 +20,8 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
                     global uint* owner, global uint* validity
 #ifdef GRASS_HEIGHT
                     ,
-                    global const float* blade_root_z, global const float* blade_length, float root_offset_z,
+                    global const float* blade_root_z, global const float* blade_length,
+                    global const float* owner_root_z, global const float* owner_height, float root_offset_z,
                     global float* height_above_root, global float* total_height
 #endif
 #ifdef REST_POINT
@@ -104,6 +105,9 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
     const uint blade = chunk->first_index + lane;
     height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
     total_height[i] = blade_length[blade];
+  } else if (owner_height[chunk->owner] > 0) {
+    height_above_root[i] = t * rz - (owner_root_z[chunk->owner] + root_offset_z);
+    total_height[i] = owner_height[chunk->owner];
   }
 #endif
 #if defined(REST_POINT) || defined(FACE_TEXEL)

@@ -147,6 +147,11 @@ std::size_t nearest_shell_of(const CrownShell& crown, const glm::dvec3& position
 
 CrownShell fit_crown(const Prototype& prototype, int shells) {
   CrownShell crown;
+  const auto has = [&](SurfaceClass surface) {
+    return std::any_of(prototype.runs.begin(), prototype.runs.end(),
+                       [=](const TriangleRun& run) { return run.surface == surface; });
+  };
+  if (has(SurfaceClass::blade) && !has(SurfaceClass::leaf)) return crown;  // grass: sim/grass_layer.hpp
   std::vector<glm::vec3> points;
   const bool leafy = has_foliage(prototype);
   double leaf_area = 0, wood_area = 0;

@@ -84,9 +84,10 @@ struct SpeciesSource {
   double height = 0;           // m; 0: preset's own height, or the mesh's own scale
   int leaves = 0;              // 0: preset's own count; generator only
   std::uint64_t variant = 0;   // generator only: another individual of the same species
-  std::vector<std::string> leaf_materials{"leaf*", "needle*", "flower*", "blade*"};  // glob patterns, mesh only
-  std::optional<SwayMode> trunk, branch, leaf;                                       // unset: the preset's
-  glm::vec3 leaf_albedo{0.10f, 0.17f, 0.05f}, wood_albedo{0.16f, 0.12f, 0.09f};      // linear RGB
+  std::vector<std::string> leaf_materials{"leaf*", "needle*", "flower*"};  // glob patterns, mesh only
+  std::vector<std::string> blade_materials{"blade*"};  // the same, looked at first: grass, not a crown
+  std::optional<SwayMode> trunk, branch, leaf;         // unset: the preset's
+  glm::vec3 leaf_albedo{0.10f, 0.17f, 0.05f}, wood_albedo{0.16f, 0.12f, 0.09f};  // linear RGB
   int shells = 6;  // most spheres of the clustered shell of its crown
   /// Constants of the models; negative: derived from the foliage (see sim/crown.hpp).
   double alpha_rho = -1;                                        // eq. 6 of Hegeman et al. 2006, 1/m^3
@@ -190,7 +191,7 @@ struct Methods {
   /// sphere-cap, ellipsoid-cap, shells-cap, shells-cap-levels, reeves-blau, crown-transmittance, crown-field,
   /// crown-baked, ambient, none
   std::string tree = "sphere-cap";
-  std::string grass = "grass-height";  // grass-height, ambient, none
+  std::string grass = "grass-height";  // grass-transmittance, grass-height, ambient, none
   /// How crowns shade others: solid-angle, -exact, -cosine, crown-shells, none.
   std::string crowns = "solid-angle-cosine";
   std::string occluders = "solid-angle-cosine";  // solid-angle, -exact, -cosine, grid, grid-cone, none

@@ -30,7 +30,7 @@ std::size_t species_index(const Scene& scene, const PlantPlacement& placement) {
 
 Species build(const SpeciesSource& source, std::uint64_t seed) {
   if (source.mesh.empty()) return build_species(source, seed, nullptr);
-  const RawMesh mesh = read_mesh(source.mesh, source.up, source.leaf_materials);
+  const RawMesh mesh = read_mesh(source.mesh, source.up, source.leaf_materials, source.blade_materials);
   return build_species(source, seed, &mesh);
 }
 

@@ -103,11 +103,13 @@ int occlude(const OccludeOptions& options) {
     frame.origin = scene.origin;
     attributes.seed = scene.seed;
     attributes.methods = scene.methods;
-    attributes.methods.grass = "none";
+    const bool grass = attributes.methods.grass == "grass-transmittance";  // the others need the blades' lengths
+    if (!grass) attributes.methods.grass = "none";
     attributes.scene_sha256 = sha256_of_text(resolved_scene(scene, PathStyle::file_name));
     gbuffer.notes.push_back(
-        fmt::format("scene: {} at {} s; crowns and occluders, but no grass model: the file lacks the blades' lengths",
-                    options.scene.file, time));
+        fmt::format("scene: {} at {} s; crowns and occluders, {}", options.scene.file, time,
+                    grass ? "and the light among its grass"
+                          : "but no grass model: the file lacks the blades' lengths (--grass grass-transmittance)"));
   } else {
     attributes.methods = methods_without_scene(options.scene);
     gbuffer.notes.push_back(

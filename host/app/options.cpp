@@ -23,7 +23,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool scene_flag
   command
       .add_option("--tree", options.tree, "How crowns shade their own leaves and wood: sphere-cap, ellipsoid-cap, ...")
       ->type_name("METHOD");
-  command.add_option("--grass", options.grass, "How grass shades its own blades: grass-height, ambient, none")
+  command
+      .add_option("--grass", options.grass,
+                  "How grass shades its own blades: grass-transmittance, grass-height, ambient, none")
       ->type_name("METHOD");
   command.add_option("--crowns", options.crowns, "How crowns shade everything else: solid-angle-cosine, ..., none")
       ->type_name("METHOD");

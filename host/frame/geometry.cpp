@@ -134,6 +134,21 @@ void upload_blades(Device& device, const World& world, Geometry& geometry) {
       upload(device, all.phase, "grass phase")};
 }
 
+/// Heights of the plants of a mesh whose surface is blades; nothing in a scene without any blade.
+MeshGrass upload_mesh_grass(Device& device, const World& world) {
+  const auto is_blade = [](const Owner& owner) { return owner.surface == SurfaceClass::blade; };
+  if (std::none_of(world.owners.begin(), world.owners.end(), is_blade)) return {};
+  std::vector<float> root_z(world.owners.size(), 0.0f), height(world.owners.size(), 0.0f);
+  for (const Instance& instance : world.instances)
+    for (const std::uint32_t row : instance.run_owner)
+      if (is_blade(world.owners[row])) {
+        root_z[row] = static_cast<float>(instance.position.z);
+        height[row] = static_cast<float>(instance.scale) * world.prototypes[instance.prototype].high.z;
+      }
+  return {Buffer<float>(device, std::span<const float>(root_z), "mesh grass roots"),
+          Buffer<float>(device, std::span<const float>(height), "mesh grass heights")};
+}
+
 /// Ids and vertex numbers are 32-bit on the device: refuse before any of them can wrap.
 void check_sizes(const World& world) {
   std::uint64_t vertices = 0, triangles = 0;
@@ -181,6 +196,7 @@ Geometry upload_geometry(Device& device, const World& world) {
   lay_out_instances(world, upload_prototypes(device, world, geometry), geometry, blocks);
   geometry.blocks = upload(device, blocks, "posed blocks");
   upload_blades(device, world, geometry);
+  geometry.mesh_grass = upload_mesh_grass(device, world);
   geometry.triangles.chunks = upload(device, geometry.chunks, "triangle chunks");
   if (geometry.vertices > 0)
     geometry.posed = {Buffer<std::array<float, 4>>(device, geometry.vertices, "posed vertices")};

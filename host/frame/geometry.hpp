@@ -19,6 +19,7 @@ struct Geometry {
   RestVertices rest;
   Buffer<PosedBlock> blocks;
   RestBlades blades;
+  MeshGrass mesh_grass;
   TriangleTables triangles;
   PosedVertices posed;
   std::vector<FieldRange> fields;                 // per World::grass

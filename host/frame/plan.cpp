@@ -11,7 +11,7 @@ namespace {
 
 /// What the scene holds, as far as passes care.
 struct Contents {
-  bool meshes = false, grass = false, crowns = false, bodies_beside_crowns = false, occluders = false;
+  bool meshes = false, grass = false, blades = false, crowns = false, bodies_beside_crowns = false, occluders = false;
   bool ground_cover = false, dome = true, environment = false;
 };
 
@@ -20,6 +20,8 @@ Contents contents_of(const World& world) {
   contents.meshes = !world.instances.empty();
   contents.grass =
       std::any_of(world.grass.begin(), world.grass.end(), [](const auto& field) { return field.size() > 0; });
+  contents.blades = std::any_of(world.owners.begin(), world.owners.end(),
+                                [](const Owner& owner) { return owner.surface == SurfaceClass::blade; });
   contents.crowns =
       std::any_of(world.owners.begin(), world.owners.end(), [](const Owner& owner) { return owner.crown >= 0; });
   contents.bodies_beside_crowns = world.instances.size() > 1 || contents.grass;
@@ -41,7 +43,7 @@ void check_names(const Methods& methods) {
   require_known("tree", methods.tree,
                 {"sphere-cap", "ellipsoid-cap", "shells-cap", "shells-cap-levels", "reeves-blau", "crown-transmittance",
                  "crown-field", "crown-baked", "ambient", "none"});
-  require_known("grass", methods.grass, {"grass-height", "ambient", "none"});
+  require_known("grass", methods.grass, {"grass-transmittance", "grass-height", "ambient", "none"});
   require_known("crowns", methods.crowns,
                 {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"});
   require_known("occluders", methods.occluders,
@@ -62,9 +64,11 @@ void plan_geometry(const Contents& contents, Plan& plan) {
 
 void plan_visibility(const Contents& contents, const Methods& methods, Plan& plan) {
   const bool tree = contents.crowns && methods.tree != "none";
-  const bool grass = contents.grass && methods.grass != "none";
-  if ((tree && methods.tree == "ambient") || (grass && methods.grass == "ambient") || contents.ground_cover)
-    plan.passes.push_back({"ambient", "ambient", contents.ground_cover ? "ground under grass" : "asked for"});
+  const bool grass = contents.blades && methods.grass != "none";
+  const bool layer = grass && methods.grass == "grass-transmittance";  // it lights the ground as well
+  const bool cover = contents.ground_cover && !layer;
+  if ((tree && methods.tree == "ambient") || (grass && methods.grass == "ambient") || cover)
+    plan.passes.push_back({"ambient", "ambient", cover ? "ground under grass" : "asked for"});
   if (tree && methods.tree != "ambient") {
     std::string program = methods.tree;
     std::replace(program.begin(), program.end(), '-', '_');
@@ -72,6 +76,7 @@ void plan_visibility(const Contents& contents, const Methods& methods, Plan& pla
     plan.passes.push_back({methods.tree, program, "plants with a crown"});
   }
   if (grass && methods.grass == "grass-height") plan.passes.push_back({"grass-height", "grass_height", "grass"});
+  if (layer) plan.passes.push_back({"grass-transmittance", "grass_transmittance", "grass and what stands in it"});
   if (contents.dome) plan.passes.push_back({"open-dome", "open_dome", "sky: dome"});
   const std::string crowns = contents.crowns && contents.bodies_beside_crowns ? methods.crowns : "none";
   const std::string occluders = contents.occluders ? methods.occluders : "none";

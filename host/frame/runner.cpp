@@ -78,7 +78,7 @@ void FrameRunner::Impl::choose(const Methods& methods) {
   if (visible.words.size() != 2 * width * height)
     visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
   ResolvedPlanes resolved;
-  resolved.grass_height = plan.has("grass-height");
+  resolved.grass_height = plan.has("grass-height") || plan.has("grass-transmittance");  // frames keep the heights
   resolved.rest_point = plan.has("crown-field");
   resolved.texel = plan.has("crown-baked");
   visibility.reset();  // first free the old methods' programs and planes
@@ -103,8 +103,8 @@ void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
                       range.first_vertex, geometry.posed);
   }
   rasterise->run(geometry.triangles, geometry.posed, camera, visible);
-  const RestGeometry rest{geometry.blades, static_cast<float>(-pose.eye.z), &geometry.rest, &geometry.blocks,
-                          visibility->baked_faces()};
+  const RestGeometry rest{geometry.blades,  static_cast<float>(-pose.eye.z), &geometry.rest,
+                          &geometry.blocks, visibility->baked_faces(),       &geometry.mesh_grass};
   resolve->run(visible, geometry.triangles, geometry.posed, rest, camera, planes);
 }
 

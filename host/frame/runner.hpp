@@ -34,7 +34,8 @@ class FrameRunner {
 
 /// Visibility passes on planes rendered elsewhere: fills `terms`, `visibility` and flags in `validity`.
 /// frame.owner indexes world->owners (all 0: each fragment inside a crown's sphere belongs to the nearest crown).
-/// `world` null: open-dome factor only. The grass method is not run: foreign planes lack the blades' lengths.
+/// `world` null: open-dome factor only. Of the grass methods only grass-transmittance is run: foreign planes lack the
+/// blades' lengths that the others need.
 void shade_planes(Device& device, const World* world, const Methods& methods, double time, Frame& frame);
 
 }  // namespace understory

@@ -65,7 +65,7 @@ void shade_planes(Device& device, const World* world, const Methods& methods, do
     frame.owner.assign(frame.pixels(), 0);
   }
   Methods usable = methods;
-  usable.grass = "none";  // planes of other renderers lack the blades' lengths
+  if (usable.grass != "grass-transmittance") usable.grass = "none";  // planes of other renderers lack blades' lengths
   const Plan plan = make_visibility_plan(world, usable);
   FragmentPlanes planes = upload_planes(device, frame, eye);
   const OwnerTables owners = upload_owners(device, frame.owners);

@@ -10,6 +10,7 @@
 #include "host/passes/ambient.hpp"
 #include "host/passes/combine.hpp"
 #include "host/passes/grass_height.hpp"
+#include "host/passes/grass_transmittance.hpp"
 #include "host/passes/open_dome.hpp"
 #include "host/passes/solid_angle.hpp"
 
@@ -64,6 +65,8 @@ struct VisibilityPasses::Impl {
   std::optional<FieldShading> field;
   std::optional<BakedShading> baked;
   std::optional<GrassHeightPass> grass;
+  std::optional<GrassLayerTable> layer;
+  std::optional<GrassTransmittancePass> among_grass;
   std::optional<OpenDomePass> dome;
   std::vector<SphereShading> shadings;  // crowns and occluders, together when they share a method
   std::optional<NearFieldPasses> near;
@@ -82,7 +85,7 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
       visibility(device, padded_fragments, "visibility"),
       combine(device) {
   if (plan.has("ambient")) {
-    cover.emplace(device, world->ground_cover);
+    cover.emplace(device, plan.has("grass-transmittance") ? GroundCover() : world->ground_cover);
     ambient.emplace(device);
     add_term("ambient");
   }
@@ -93,6 +96,12 @@ VisibilityPasses::Impl::Impl(Device& the_device, const World* the_world, const M
   if (plan.has("grass-height")) {
     grass.emplace(device);
     add_term("grass-height");
+  }
+  if (plan.has("grass-transmittance")) {
+    const bool open_below = open_below_grass(*world);
+    layer.emplace(device, light_grass(*world), open_below);
+    among_grass.emplace(device, open_below);
+    add_term("grass-transmittance");
   }
   if (plan.has("open-dome")) {
     dome.emplace(device);
@@ -129,6 +138,7 @@ void VisibilityPasses::Impl::run_own_models(const Pose* pose, const OwnerTables&
   if (field) field->pass.run(planes, field->fields, terms.at(methods.tree));
   if (baked) baked->pass.run(planes, baked->tables.texels, terms.at(methods.tree));
   if (grass) grass->run(planes, owners, terms.at("grass-height"));
+  if (among_grass) among_grass->run(planes, *layer, pose->eye, terms.at("grass-transmittance"));
   if (dome) dome->run(planes, terms.at("open-dome"));
 }
 
@@ -145,18 +155,15 @@ VisibilityTerms VisibilityPasses::Impl::combined_terms() const {
   VisibilityTerms all;
   all.ambient = term("ambient");
   all.tree = tree || field || baked ? term(methods.tree) : nullptr;
-  all.grass = term("grass-height");
+  all.grass = term(among_grass ? "grass-transmittance" : "grass-height");
   all.dome = term("open-dome");
   for (const SphereShading& shading : shadings) (shading.crowns ? all.crowns : all.occluders) = term(shading.method);
   all.near = term(methods.near);
   all.near_is_limit = methods.near_field.combine == "minimum";
   if (grids) all.occluders = term(methods.occluders);
-  // Eq. 9 holds the horizon in its (1 + cos)/2 (FORMULAS.md); bakes are traced under the scene's sky.
-  if (grass) all.horizon_classes |= class_bit(SurfaceClass::blade);
+  // Bakes are traced under the scene's sky, and so is what crown-transmittance stands for.
   if (field || baked || (tree && tree->has_horizon()))
     all.horizon_classes |= class_bit(SurfaceClass::leaf) | class_bit(SurfaceClass::wood);
-  if (tree && tree->has_horizon() && world->grass.empty())  // blades of plants from meshes
-    all.horizon_classes |= class_bit(SurfaceClass::blade);
   return all;
 }
 

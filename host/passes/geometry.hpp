@@ -41,4 +41,10 @@ inline constexpr std::uint32_t triangles_per_chunk = 256;
 inline constexpr std::uint32_t blades_per_group = 256;
 inline constexpr std::uint32_t vertices_per_blade = 7, triangles_per_blade = 5;
 
+/// Grass that stands as a mesh, by row of the owner table: z of its root relative to the origin, and how high it is, m;
+/// height 0: no grass.
+struct MeshGrass {
+  Buffer<float> root_z, height;
+};
+
 }  // namespace understory

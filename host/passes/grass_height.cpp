@@ -11,8 +11,8 @@ void GrassHeightPass::run(const FragmentPlanes& planes, const OwnerTables& owner
   require_size("grass-height", "blade_length", planes.blade_length.size(), planes.padded_fragments);
   const std::uint32_t items = lanes_.items(planes);
   const auto blade = static_cast<std::uint32_t>(SurfaceClass::blade);
-  kernel_.launch(items, lanes_.local_size(), planes.height_above_root, planes.blade_length, planes.normal_z,
-                 planes.owner, owners.surface_class, owners.rows(), blade, items, visibility, planes.validity);
+  kernel_.launch(items, lanes_.local_size(), planes.height_above_root, planes.blade_length, planes.owner,
+                 owners.surface_class, owners.rows(), blade, items, visibility, planes.validity);
 }
 
 }  // namespace understory

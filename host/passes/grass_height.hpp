@@ -1,4 +1,4 @@
-// kernels/grass_height.cl: `grass-height`, eq. 9 of Hegeman et al. 2006. It holds the open-dome factor already.
+// kernels/grass_height.cl: `grass-height`, eq. 9 of Hegeman et al. 2006 without its open-dome factor.
 #pragma once
 #include "host/opencl/kernel.hpp"
 #include "host/passes/lanes.hpp"

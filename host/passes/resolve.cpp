@@ -44,8 +44,8 @@ void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& tri
                n[1], n[2]);
   };
   if (write_.grass_height)
-    with_rest(rest.blades.root_z, rest.blades.length, rest.root_offset_z, planes.height_above_root,
-              planes.blade_length);
+    with_rest(rest.blades.root_z, rest.blades.length, rest.mesh_grass->root_z, rest.mesh_grass->height,
+              rest.root_offset_z, planes.height_above_root, planes.blade_length);
   else
     with_rest();
 }

@@ -21,6 +21,7 @@ struct RestGeometry {
   const RestVertices* vertices = nullptr;
   const Buffer<PosedBlock>* blocks = nullptr;
   const Buffer<std::array<std::uint32_t, 2>>* faces = nullptr;  // CrownBakedTables::faces
+  const MeshGrass* mesh_grass = nullptr;
 };
 
 class ResolvePass {
@@ -28,7 +29,7 @@ class ResolvePass {
   /// `wide_atomics`: as the visibility buffer was rasterised.
   ResolvePass(Device& device, const ResolvedPlanes& write, bool wide_atomics);
   /// `planes` hold what was chosen. `rest.vertices` and `rest.blocks` are needed for rest_point only,
-  /// `rest.faces` for texel only.
+  /// `rest.faces` for texel only, `rest.mesh_grass` for grass_height only.
   void run(const VisibilityBuffer& visible, const TriangleTables& triangles, const PosedVertices& posed,
            const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes);
 

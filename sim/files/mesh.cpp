@@ -65,8 +65,8 @@ struct PositionHash {
 class PartCollector {
  public:
   PartCollector(const std::filesystem::path& file, const aiScene& scene, UpAxis up,
-                const std::vector<std::string>& leaf_patterns)
-      : file_(file), scene_(scene), up_(up), leaf_patterns_(leaf_patterns) {}
+                const std::vector<std::string>& leaf_patterns, const std::vector<std::string>& blade_patterns)
+      : file_(file), scene_(scene), up_(up), leaf_patterns_(leaf_patterns), blade_patterns_(blade_patterns) {}
 
   RawMesh collect() {
     visit(*scene_.mRootNode, aiMatrix4x4());
@@ -97,9 +97,9 @@ class PartCollector {
   }
 
   SurfaceClass surface_of(const std::string& material) const {
-    const bool leaf = std::any_of(leaf_patterns_.begin(), leaf_patterns_.end(),
-                                  [&](const std::string& pattern) { return matches_pattern(material, pattern); });
-    return leaf ? SurfaceClass::leaf : SurfaceClass::wood;
+    const auto matches = [&](const std::string& pattern) { return matches_pattern(material, pattern); };
+    if (std::any_of(blade_patterns_.begin(), blade_patterns_.end(), matches)) return SurfaceClass::blade;
+    return std::any_of(leaf_patterns_.begin(), leaf_patterns_.end(), matches) ? SurfaceClass::leaf : SurfaceClass::wood;
   }
 
   void copy_triangles(const aiMesh& source, const aiMatrix4x4& to_file, RawMesh::Part& part) {
@@ -142,14 +142,15 @@ class PartCollector {
   const std::filesystem::path& file_;
   const aiScene& scene_;
   UpAxis up_;
-  const std::vector<std::string>& leaf_patterns_;
+  const std::vector<std::string>&leaf_patterns_, &blade_patterns_;
   RawMesh mesh_;
   std::uint64_t vertices_ = 0, triangles_ = 0;
 };
 
 }  // namespace
 
-RawMesh read_mesh(const std::filesystem::path& file, UpAxis up, const std::vector<std::string>& leaf_patterns) {
+RawMesh read_mesh(const std::filesystem::path& file, UpAxis up, const std::vector<std::string>& leaf_patterns,
+                  const std::vector<std::string>& blade_patterns) {
   check_file(file);
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -162,7 +163,7 @@ RawMesh read_mesh(const std::filesystem::path& file, UpAxis up, const std::vecto
     refuse(file, "not a usable mesh: " + readable(reason));
   }
   if (!scene->mRootNode || scene->mNumMeshes == 0) refuse(file, "the mesh has no faces");
-  return PartCollector(file, *scene, up, leaf_patterns).collect();
+  return PartCollector(file, *scene, up, leaf_patterns, blade_patterns).collect();
 }
 
 }  // namespace understory

@@ -147,6 +147,7 @@ void keys(Archive& a, SpeciesSource& species) {
   a.file("mesh", species.mesh, "a plant from a mesh: OBJ, PLY, glTF, GLB");
   a.up_axis("up", species.up, species.mesh);
   a.texts("leaf_materials", species.leaf_materials, "patterns of the material names that are leaves");
+  a.texts("blade_materials", species.blade_materials, "patterns of the material names that are blades of grass");
   a.number("height", species.height, optional_above_zero(200, "m", 0), "scaled to this; left out: as it comes");
   a.section("sway", "how it answers the wind; what is left out is the preset's", [&](auto& sway) {
     sway.optional("trunk", species.trunk, "sway of the whole plant");
@@ -166,7 +167,7 @@ void keys(Archive& a, SpeciesSource& species) {
                  "decay inwards; left out: from the foliage");
   });
   a.goes_with("generator", {"leaves", "variant"});
-  a.goes_with("mesh", {"up", "leaf_materials"});
+  a.goes_with("mesh", {"up", "leaf_materials", "blade_materials"});
 }
 
 template <class Archive>
@@ -321,7 +322,7 @@ void keys(Archive& a, Methods& methods) {
          {"sphere-cap", "ellipsoid-cap", "shells-cap", "shells-cap-levels", "reeves-blau", "crown-transmittance",
           "crown-field", "crown-baked", "ambient", "none"},
          "within a crown");
-  a.word("grass", methods.grass, {"grass-height", "ambient", "none"}, "among blades");
+  a.word("grass", methods.grass, {"grass-transmittance", "grass-height", "ambient", "none"}, "among blades");
   a.word("crowns", methods.crowns, {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "crown-shells", "none"},
          "how crowns shade others");
   a.word("occluders", methods.occluders,

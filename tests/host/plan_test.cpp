@@ -82,6 +82,19 @@ TEST(Plan, WithGrassThatNoMethodAsksAboutHasNoHeights) {
   EXPECT_LT(taken.bytes, with_heights);
 }
 
+TEST(Plan, WithTheLightAmongGrassHasNoOtherModelOfItsGround) {
+  Scene scene = meadow_view();
+  scene.methods.grass = "grass-transmittance";
+  const Taken taken = render_one(scene);
+  expect_as_planned(taken);
+  EXPECT_THAT(taken.passes, Contains("grass-transmittance"));
+  EXPECT_THAT(taken.passes, Not(Contains("grass-height")));
+  EXPECT_THAT(taken.passes, Not(Contains("ambient")));
+  EXPECT_EQ(taken.frame.height_above_root.size(), taken.frame.pixels());
+  scene.grass.clear();
+  EXPECT_THAT(render_one(scene).built, Not(Contains(HasSubstr("grass"))));
+}
+
 TEST(Plan, WithoutPlantsHasNoCrownPass) {
   Scene scene = meadow_view();
   scene.species.clear();

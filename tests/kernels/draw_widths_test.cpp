@@ -92,7 +92,8 @@ Frame draw(Device& device, Geometry& geometry, int lanes, bool wide_atomics) {
   }
   FragmentPlanes planes =
       allocate_planes(device, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height), true);
-  ResolvePass(device, {.grass_height = true}, wide_atomics).run(visible, t, posed, {geometry.blades}, camera, planes);
+  ResolvePass(device, {.grass_height = true}, wide_atomics)
+      .run(visible, t, posed, {geometry.blades, 0, nullptr, nullptr, nullptr, &geometry.mesh_grass}, camera, planes);
   Frame frame;
   frame.width = image.width;
   frame.height = image.height;

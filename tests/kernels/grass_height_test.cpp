@@ -5,6 +5,7 @@
 
 #include "host/passes/open_dome.hpp"
 #include "kernels/shared/grass_height.h"
+#include "kernels/shared/open_dome.h"
 #include "tests/reference/grass_height.hpp"
 #include "tests/support/fragments.hpp"
 #include "tests/support/tolerances.hpp"
@@ -71,14 +72,14 @@ TEST(OpenDome, DeviceIsTheReference) {
 TEST(GrassHeight, ClosedForms) {
   UNDERSTORY_NEEDS_DEVICE();
   const glm::vec3 up(0, 0, 1), level(1, 0, 0), down(0, 0, -1);
-  const Shaded shaded = shade({{{}, up, 1, 0.5f, 0.5f},       // tip, facing up: open
+  const Shaded shaded = shade({{{}, up, 1, 0.5f, 0.5f},       // tip: open
                                {{}, up, 1, 0.0f, 0.5f},       // root: dark
-                               {{}, level, 1, 0.25f, 0.5f},   // half way, upright: a quarter
-                               {{}, down, 1, 0.5f, 0.5f},     // faces the ground
+                               {{}, level, 1, 0.25f, 0.5f},   // half way: half, whatever way it faces
+                               {{}, down, 1, 0.5f, 0.5f},     // the horizon is the dome's
                                {{}, up, 1, 0.7f, 0.5f},       // above its own tip: clamped
-                               {{}, level, 1, 0.0f, 0.0f},    // no height: nothing covers it but the horizon
+                               {{}, level, 1, 0.0f, 0.0f},    // no height: nothing covers it
                                {{}, level, 2, 0.1f, 0.5f}});  // terrain is another model's
-  EXPECT_EQ(shaded.visibility, (std::vector<float>{1, 0, 0.25f, 0, 1, 0.5f, 1}));
+  EXPECT_EQ(shaded.visibility, (std::vector<float>{1, 0, 0.5f, 1, 1, 1, 1}));
   const std::uint32_t outside = validity::outside_model;
   EXPECT_EQ(shaded.validity, (std::vector<std::uint32_t>{0, 0, 0, 0, outside, outside, 0}));
 }
@@ -90,15 +91,21 @@ TEST(GrassHeight, DeviceIsTheReference) {
     const Shaded shaded = shade(fragments);
     for (std::size_t i = 0; i < size; ++i) {
       const TestFragment& f = fragments[i];
-      const double exact =
-          f.owner == 1 ? reference::grass_height(double(f.height), double(f.blade_length), double(f.normal.z)) : 1.0;
+      const double exact = f.owner == 1 ? reference::grass_height(double(f.height), double(f.blade_length)) : 1.0;
       EXPECT_NEAR(shaded.visibility[i], exact, tolerance::grass);
     }
   }
 }
 
+TEST(GrassHeight, TimesTheDomeIsEquation9AsPrinted) {
+  for (const double tilt : {0.0, 0.7, 1.9})
+    for (const double height : {0.0, 0.1, 0.4})
+      EXPECT_NEAR(grass_height(height, 0.4) * open_dome(std::cos(tilt)), height / (2 * 0.4) * (1 + std::cos(tilt)),
+                  1e-12);
+}
+
 TEST(GrassHeight, HigherIsNeverDarker) {
-  for (int i = 0; i < 1000; ++i) EXPECT_LE(grass_height(i * 1e-3, 0.9, 0.3), grass_height((i + 1) * 1e-3, 0.9, 0.3));
+  for (int i = 0; i < 1000; ++i) EXPECT_LE(grass_height(i * 1e-3, 0.9), grass_height((i + 1) * 1e-3, 0.9));
 }
 
 TEST(GrassHeight, GarbageStaysWithinBounds) {

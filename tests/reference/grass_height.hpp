@@ -1,4 +1,4 @@
-// Eq. 9 of Hegeman et al. 2006 in double; the tilt as cos^2 of half the angle between normal and up.
+// The two factors of eq. 9 of Hegeman et al. 2006 in double; the tilt as cos^2 of half the angle between normal and up.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ inline double open_dome(double normal_z) {
 }
 
 /// `height` above the root and `total` height of the grass, m; grass of no height covers nothing.
-inline double grass_height(double height, double total, double normal_z) {
-  return (total > 0 ? std::clamp(height, 0.0, total) / total : 1.0) * open_dome(normal_z);
+inline double grass_height(double height, double total) {
+  return total > 0 ? std::clamp(height, 0.0, total) / total : 1.0;
 }
 
 }  // namespace understory::reference

@@ -22,6 +22,8 @@ inline constexpr double ellipsoid_crown = 2e-5;
 // Two roundings of numbers below 1.
 inline constexpr double grass = 3e-7;
 inline constexpr double open_dome = 1.2e-7;
+// Light among grass: four numbers in steps of 1/65535, each times at most 2, and the place between nodes to 2e-6 m.
+inline constexpr double grass_layer = 1.5e-4;
 // Bilinear: cell coordinates up to 100 are rounded to 24 bits, times a slope of at most 1 per cell.
 inline constexpr double ground_cover = 2e-5;
 // solid_angle_cosine: least-maximum fits of 8.5e-6 from 4 radii on and of 1.0e-5 from 1.5 on, and roundings.
@@ -36,8 +38,8 @@ inline constexpr double grid_cone = 2e-4;
 inline constexpr double combine = 5e-7;
 // Quadrature over a cap's polar angle, 4000 nodes: its own error, found by doubling them.
 inline constexpr double quadrature = 1e-7;
-// Obscurance: depths relative to the fragment keep about 1e-6 of the depth, here a dozen radii; lengths of lines seen at a
-// slant, up to 1/cos 85 degrees of them, sum up to it; angles of the rotation within 4e-6.
+// Obscurance: depths relative to the fragment keep about 1e-6 of the depth, here a dozen radii; lengths of lines seen
+// at a slant, up to 1/cos 85 degrees of them, sum up to it; angles of the rotation within 4e-6.
 inline constexpr double obscurance = 1e-3;
 // A million directions, one per cell of a 1000 x 1000 grid of equal shares: the boundary crosses about 3000 cells.
 inline constexpr double ray_counting = 5e-4;

@@ -37,7 +37,7 @@ ViewState::ViewState(const ViewOptions& options) : scene_methods_(options.method
       choice("show", 'v', {"picture", "visibility"}, "picture"),
       choice("compare", 's', {"nothing", "side-by-side", "difference"}, "nothing"),
       choice("tree", 't', {"sphere-cap", "ellipsoid-cap", "reeves-blau", "ambient", "none"}, scene_methods_.tree),
-      choice("grass", 'g', {"grass-height", "ambient", "none"}, scene_methods_.grass),
+      choice("grass", 'g', {"grass-transmittance", "grass-height", "ambient", "none"}, scene_methods_.grass),
       choice("crowns", 'c', shading, scene_methods_.crowns),
       choice("occluders", 'o', occluders, scene_methods_.occluders),
   };
