@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bench/frame.hpp"
+#include "bench/grid_features.hpp"
 #include "bench/grids.hpp"
 #include "bench/kernels.hpp"
 #include "bench/report.hpp"
@@ -16,6 +17,7 @@ BenchReport run_bench(const BenchOptions& options) {
   bench_kernels(device, options, report);
   bench_frames(device, options, report);
   bench_grids(device, options, report);
+  bench_grid_features(device, options, report);
   if (report.results.empty())
     throw Error(ErrorKind::usage, "--filter " + options.filter +
                                       ": no benchmark has this in its name; names are kernel/METHOD and, of the "

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy.hpp"
+#include "bench/grid_accuracy.hpp"
 #include "bench/report.hpp"
 #include "host/app/bench_json.hpp"
 #include "host/app/commands.hpp"
@@ -24,6 +25,7 @@ struct BenchCommand {
   DeviceOptions device;
   bool json = false;
   std::string compare;   // file of an earlier report; empty: none
+  std::string grids;     // Markdown file of the errors of moving bodies; empty: none
   std::string accuracy;  // Markdown file to write; empty: times are measured, not errors
   AccuracyOptions accuracy_options;
 };
@@ -115,6 +117,22 @@ void print_accuracy(const AccuracyReport& report) {
                canopy.standard_error, canopy.closed_form);
 }
 
+/// Errors of the methods of moving bodies instead of times.
+int bench_grid_errors(const BenchCommand& command) {
+  use_threads(command.device);
+  GridAccuracyOptions options;
+  options.device = command.device.device;
+  options.scenes = command.bench.scenes;
+  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
+  if (options.scenes.empty()) throw Error(ErrorKind::usage, "--grids needs scenes with occluders");
+  const std::string table = grid_accuracy_markdown(measure_grid_accuracy(options));
+  if (command.grids == "-")
+    fmt::print("{}", table);
+  else
+    write_file_atomically(command.grids, table);
+  return 0;
+}
+
 /// Errors instead of times.
 int bench_accuracy(BenchCommand& command) {
   use_threads(command.device);
@@ -169,13 +187,19 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->needs(accuracy)
       ->capture_default_str();
+  app->add_option("--grids", command->grids,
+                  "Measure how far moving bodies of the SCENEs are from traced truth, by every method and rule of "
+                  "combining, into this Markdown file (-: only print)");
   add_device_options(*app, command->device);
   app->footer(
       "low and high enclose the median with 95 % confidence. cold: first run, compiling included. planes: speed over\n"
       "that of a kernel that only reads as many planes and writes one; roof: over the nearest ceiling. Results are\n"
       "verified first: a wrong one is named, not timed, and makes the exit code 1.");
   app->callback([command, &chosen] {
-    chosen = [command] { return command->accuracy.empty() ? bench(*command) : bench_accuracy(*command); };
+    chosen = [command] {
+      if (!command->grids.empty()) return bench_grid_errors(*command);
+      return command->accuracy.empty() ? bench(*command) : bench_accuracy(*command);
+    };
   });
 }
 
