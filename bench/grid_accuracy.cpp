@@ -158,7 +158,11 @@ std::string table_of(const GridAccuracyReport& report, const std::string& receiv
     }
     text += "\n";
   }
-  return text;
+  text += "| grid-cone merge / multiply |";
+  for (const std::string& scene : scenes)
+    text += fmt::format(" {:.2f} |", row_for(report, scene, receivers, "grid-cone merge").rmse /
+                                         row_for(report, scene, receivers, "grid-cone multiply").rmse);
+  return text + "\n";
 }
 
 }  // namespace

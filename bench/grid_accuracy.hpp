@@ -14,8 +14,8 @@ struct GridAccuracyOptions {
   std::string device;                                // as --device
   std::vector<std::filesystem::path> scenes;         // their occluders and terrain alone are judged
   int frames = 4;                                    // of each scene, evenly spaced
-  int rays = 512;                                    // of the truth, per fragment
-  std::size_t fragments = 4000;                      // per frame and kind of receiver
+  int rays = 2048;                                   // of the truth, per fragment
+  std::size_t fragments = 2000;                      // per frame and kind of receiver
   std::function<void(const std::string&)> progress;  // told the name of what comes next; may be empty
 };
 
