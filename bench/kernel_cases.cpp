@@ -234,6 +234,8 @@ std::vector<KernelCase> kernel_cases() {
           crown_case<EllipsoidCapPass>("ellipsoid-cap", 8, 105, ellipsoid_cap_reference),
           crown_transmittance_case(false),
           crown_transmittance_case(true),
+          crown_field_case(),
+          crown_baked_case(),
           sphere_case("solid-angle", solid_angle, 0, false),
           sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),

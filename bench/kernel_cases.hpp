@@ -20,6 +20,8 @@ struct KernelCase {
 
 std::vector<KernelCase> kernel_cases();
 /// In files of their own, for what they need beside the fragments.
+KernelCase crown_baked_case();
+KernelCase crown_field_case();
 KernelCase environment_case();
 KernelCase grass_transmittance_case();
 
