@@ -219,7 +219,7 @@ TEST(Plan, RefusesMethodsThatDoNotExist) {
   EXPECT_THAT(message, HasSubstr("'spherecap'"));
   EXPECT_THAT(message, HasSubstr("ellipsoid-cap"));
   methods = {};
-  methods.occluders = "grid";
+  methods.occluders = "gird";
   EXPECT_THAT(message_of(ErrorKind::invalid_input, [&] { make_visibility_plan(nullptr, methods); }),
               HasSubstr("methods.occluders"));
 }
