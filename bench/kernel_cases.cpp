@@ -240,6 +240,8 @@ std::vector<KernelCase> kernel_cases() {
           sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),
           sphere_case("solid-angle-cosine", solid_angle_cosine, 64 * 60, true),
+          grid_case("grid"),
+          grid_case("grid-cone"),
           combine_case(),
           environment_case()};
 }

@@ -24,5 +24,7 @@ KernelCase crown_baked_case();
 KernelCase crown_field_case();
 KernelCase environment_case();
 KernelCase grass_transmittance_case();
+/// grid, or grid-cone with rule multiply.
+KernelCase grid_case(const std::string& method);
 
 }  // namespace understory
