@@ -84,8 +84,8 @@ TEST(ObscuranceArea, FlatSurfacesAreOpen) {
   UNDERSTORY_NEEDS_DEVICE();
   NearField options;
   for (const double field_of_view : {0.1, 0.4, 0.0})  // no horizon comes into view
-    for (const double tilt : {0.0, 50.0, 79.5})
-      for (const int samples : {1, 5, 12}) {
+    for (const double tilt : {0.0, 79.5})
+      for (const int samples : {1, 12}) {
         const ObscuranceView view = odd_view(97, 81, field_of_view);
         const glm::dvec3 normal(std::sin(tilt * pi / 180) * 0.6, std::sin(tilt * pi / 180) * 0.8,
                                 -std::cos(tilt * pi / 180));
