@@ -58,7 +58,7 @@ TEST(FrameClosedForm, PlantsOfConstantAmbientHaveThatConstant) {
   Scene scene = meadow_view();
   scene.sky = Sky::sphere;
   scene.occluders.clear();
-  scene.methods = {"ambient", "ambient", "none", "none", 0.37};
+  scene.methods = {.tree = "ambient", .grass = "ambient", .crowns = "none", .occluders = "none", .ambient = 0.37};
   const Frame frame = render_one(build_world(scene));
   std::size_t plants = 0;
   for (std::size_t i = 0; i < frame.pixels(); ++i) {

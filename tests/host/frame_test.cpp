@@ -53,9 +53,10 @@ TEST(Frame, ForgetsMethodsThatAreNoLongerChosen) {
   FrameRunner runner(device, meadow());
   const Frame before = runner.render(0, 1.5);
   const std::uint64_t bytes = device.buffer_bytes();
-  const Methods others[] = {{"ellipsoid-cap", "ambient", "solid-angle", "solid-angle-exact", 0.4},
-                            {"reeves-blau", "none", "none", "none", 0.5},
-                            {"none", "grass-height", "solid-angle-exact", "none", 0.5}};
+  const Methods others[] = {
+      {.tree = "ellipsoid-cap", .grass = "ambient", .crowns = "solid-angle", .occluders = "solid-angle-exact"},
+      {.tree = "reeves-blau", .grass = "none", .crowns = "none", .occluders = "none"},
+      {.tree = "none", .grass = "grass-height", .crowns = "solid-angle-exact", .occluders = "none"}};
   for (const Methods& methods : others) {
     runner.choose(methods);
     const Frame other = runner.render(0, 1.5);

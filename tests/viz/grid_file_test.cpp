@@ -2,6 +2,7 @@
 #include "viz/vtk/grid_file.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
