@@ -26,6 +26,8 @@ namespace {
 
 /// Of the kernels' float arithmetic against the same formula in double; exponents here stay below 10.
 constexpr double float_error = 1e-5;
+/// Of a product over the spheres that shade a fragment (tests/support/tolerances.hpp).
+constexpr double solid_angle_product = 4e-5;
 
 /// The crown of a fragment; null without one.
 const CrownRecord* crown_of(const BenchFragments& all, const BenchFragment& fragment) {
@@ -134,7 +136,7 @@ KernelCase sphere_case(const std::string& method, Share share, double flops, boo
           8,
           2,
           flops,
-          float_error + double(error.total),
+          solid_angle_product + double(error.total),
           [=](Device& device, BenchFragments& all, Buffer<float>& visibility) {
             return [&, pass = std::make_shared<SolidAnglePass>(device, method, error)] {
               pass->run(all.planes, all.owners, all.spheres, all.sphere_rows().size(), visibility);

@@ -12,8 +12,9 @@
 
 kernel void combine(uint present, global const float* ambient, global const float* tree, global const float* grass,
                     global const float* crowns, global const float* occluders, global const float* dome,
-                    global const float* near, uint near_is_limit, uint horizon_classes, global const uint* owner, global const uint* owner_class, uint owners,
-                    uint items, global const uint* validity, global float* visibility) {
+                    global const float* near, uint near_is_limit, uint horizon_classes, global const uint* owner,
+                    global const uint* owner_class, uint owners, uint items, global const uint* validity,
+                    global float* visibility) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const truth open = (LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) != (bits)(0u);
@@ -22,9 +23,13 @@ kernel void combine(uint present, global const float* ambient, global const floa
     return;
   }
   real v = TERM(0, ambient) * TERM(1, tree) * TERM(2, grass) * TERM(3, crowns) * TERM(4, occluders);
-  const bits surface = owner_column(owner_class, owner_row(LOAD(owner, i), owners));
-  const truth has_horizon = ((bits)(horizon_classes) >> surface & (bits)(1u)) != (bits)(0u);
-  v *= PICK(has_horizon, REAL(1.0), TERM(5, dome));
+  if (horizon_classes == 0u) {
+    v *= TERM(5, dome);
+  } else {
+    const bits surface = owner_column(owner_class, owner_row(LOAD(owner, i), owners));
+    const truth has_horizon = ((bits)(horizon_classes) >> surface & (bits)(1u)) != (bits)(0u);
+    v *= PICK(has_horizon, REAL(1.0), TERM(5, dome));
+  }
   const real v_near = TERM(6, near);
   v = near_is_limit ? at_most(v, v_near) : v * v_near;
   STORE(PICK(open, REAL(1.0), v), visibility, i);

@@ -33,26 +33,27 @@ kernel void shade_by_spheres(global const float* position_x, global const float*
   if (far.own) group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
 
   real v = far_visibility(far, a, b, c);
-  global const uint* list = lists + tile * (LISTS * slots);
+  global const uint* list = lists + 2 * tile * (LISTS * slots);
   for (uint j = 0; j < far.distant; ++j) {
-    const ShadingSphere sphere = spheres[list[j]];
-    const SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    const ShadingSphere sphere = spheres[list[2 * j]];
+    const SphereView view = view_sphere(sphere, as_float(list[2 * j + 1]), x, y, z, a, b, c);
     v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * JOIN(distant_, SHARE)(view.height, view.square), v);
   }
-  list += slots;
+  list += 2 * slots;
   for (uint j = 0; j < far.close; ++j) {
-    const ShadingSphere sphere = spheres[list[j]];
-    const SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    const ShadingSphere sphere = spheres[list[2 * j]];
+    const SphereView view = view_sphere(sphere, as_float(list[2 * j + 1]), x, y, z, a, b, c);
     v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * JOIN(close_, SHARE)(view.height, view.square), v);
   }
-  list += slots;
+  list += 2 * slots;
   truth too_close = (truth)(0);
   const int all = far.near == ALL_SPHERES;
   const uint count = all ? sphere_count : far.near;
   for (uint j = 0; j < count; ++j) {
-    const ShadingSphere sphere = spheres[all ? j : list[j]];
+    const ShadingSphere sphere = spheres[all ? j : list[2 * j]];
     if (all && !sphere_shades(sphere)) continue;
-    SphereView view = view_sphere(sphere, x, y, z, a, b, c);
+    const float scale = all ? 1.0f / sphere.radius : as_float(list[2 * j + 1]);
+    SphereView view = view_sphere(sphere, scale, x, y, z, a, b, c);
     // A fragment's own spheres are as far from it as can be.
     if (sphere.group >= 0) view.square = PICK(group == (whole)(sphere.group), REAL(1e36), view.square);
     v = fma(-v, (real)(fmin(sphere.opacity, 1.0f)) * SHARE(view.height, view.square), v);

@@ -9,7 +9,7 @@ kernel void list_tile_spheres(global const float* position_x, global const float
                               global const float* position_z, global const uint* owner, global const uint* validity,
                               global const int* owner_group, uint owners, global const ShadingSphere* spheres,
                               uint sphere_count, float each, float budget, uint row_length, uint units, uint tile_total,
-                              global TileOcclusion* tiles, global uint* lists, uint slots) {
+                              global TileOcclusion* tiles, global uint2* lists, uint slots) {
   const uint tile = get_global_id(0);
   if (tile >= tile_total) return;
   const uint column = tile % tile_columns(row_length), top = tile / tile_columns(row_length) * TILE_ROWS;
@@ -31,7 +31,7 @@ kernel void list_tile_spheres(global const float* position_x, global const float
 
   FarField field = no_field();
   SphereLists counts = {0, 0, 0, 0};
-  global uint* list = lists + tile * (LISTS * slots);
+  global uint2* list = lists + tile * (LISTS * slots);
   for (uint first = 0; first < sphere_count && view.drawn; first += W) {
     if (max(counts.distant, max(counts.close, counts.near)) + W > slots) {  // no room
       const SphereLists all = {0, 0, ALL_SPHERES, 1};
@@ -42,9 +42,9 @@ kernel void list_tile_spheres(global const float* position_x, global const float
     const SphereBounds reach = bound_spheres(view, lanes);
     const truth folded = choose_folded(reach, each, budget, &field);
     fold(view, lanes, folded, &field);
-    counts.distant = append(list, counts.distant, first, reach.distant & NOT(folded));
-    counts.close = append(list + slots, counts.close, first, reach.close);
-    counts.near = append(list + 2 * slots, counts.near, first, reach.near);
+    counts.distant = append(list, counts.distant, first, lanes.radius, reach.distant & NOT(folded));
+    counts.close = append(list + slots, counts.close, first, lanes.radius, reach.close);
+    counts.near = append(list + 2 * slots, counts.near, first, lanes.radius, reach.near);
     if (ANY(reach.own)) counts.own = 1;
   }
   tiles[tile] = tile_occlusion(field, counts);

@@ -31,7 +31,7 @@ SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFie
 
 void SolidAnglePass::fit_tables(std::size_t tiles, std::size_t entries) {
   if (tiles_.size() < tiles) tiles_ = Buffer<TileOcclusion>(*device_, tiles, "tile occlusion");
-  if (lists_.size() < entries) lists_ = Buffer<std::uint32_t>(*device_, entries, "sphere lists");
+  if (lists_.size() < entries) lists_ = Buffer<std::array<std::uint32_t, 2>>(*device_, entries, "sphere lists");
 }
 
 void SolidAnglePass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<ShadingSphere>& spheres,

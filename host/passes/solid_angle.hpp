@@ -1,6 +1,7 @@
 // kernels/tile_spheres.cl and kernels/solid_angle.cl: `solid-angle`, `solid-angle-exact`, `solid-angle-cosine`: how
 // spheres (crowns of other plants, pieces of moving occluders) shade fragments.
 #pragma once
+#include <array>
 #include <string>
 
 #include "host/opencl/kernel.hpp"
@@ -11,7 +12,7 @@
 
 namespace understory {
 
-/// How much distant spheres may be approximated together, per tile of 64 x 4 fragments, as changes of V.
+/// How much distant spheres may be approximated together, per tile of 128 x 4 fragments, as changes of V.
 struct FarFieldError {
   float each = 1.0f / 640;  // of one sphere
   float total = 1.0f / 64;  // of all spheres: the bound holds for each fragment; 0: every sphere exactly
@@ -36,7 +37,7 @@ class SolidAnglePass {
   Lanes lanes_;
   Kernel list_, shade_;
   Buffer<TileOcclusion> tiles_;
-  Buffer<std::uint32_t> lists_;
+  Buffer<std::array<std::uint32_t, 2>> lists_;  // row of the sphere table, bits of 1/radius
 };
 
 }  // namespace understory

@@ -1,12 +1,12 @@
-// Tiles of an image: 64 x 4 fragments that are near each other in space, so that one look at their bounds serves all.
-// A unit is 16 consecutive fragments of the planes and belongs to the image row of its first one; a tile is 4 neighbouring
+// Tiles of an image: 128 x 4 fragments that are near each other in space, so that one look at their bounds serves all.
+// A unit is 16 consecutive fragments of the planes and belongs to the image row of its first one; a tile is 8 neighbouring
 // units of each of 4 rows: wide, because memory is read along rows. Units partition the planes whatever the image's
 // width is.
 #ifndef UNDERSTORY_FRAGMENT_TILES_H
 #define UNDERSTORY_FRAGMENT_TILES_H
 
 #define UNIT 16u       // fragments
-#define TILE_UNITS 4u  // units of a row
+#define TILE_UNITS 8u  // units of a row
 #define TILE_ROWS 4u   // image rows
 
 #define LISTS 3u  // of spheres per tile: distant, close, near

@@ -24,9 +24,9 @@ typedef struct {
   real height, square;
 } SphereView;
 
-/// (x, y, z): fragments, m; (a, b, c): their unit normals.
-SHARED SphereView view_sphere(const ShadingSphere sphere, real x, real y, real z, real a, real b, real c) {
-  const float scale = 1.0f / sphere.radius;
+/// (x, y, z): fragments, m; (a, b, c): their unit normals. `scale`: 1/radius, which lists keep (tile_spheres.cl), for a
+/// division by fragment and sphere is a seventh of the shading's time.
+SHARED SphereView view_sphere(const ShadingSphere sphere, float scale, real x, real y, real z, real a, real b, real c) {
   const real dx = (real)(sphere.x) - x, dy = (real)(sphere.y) - y, dz = (real)(sphere.z) - z;
   const SphereView view = {fma(dx, a, fma(dy, b, dz * c)) * scale,
                            fma(dx, dx, fma(dy, dy, dz * dz)) * (scale * scale)};

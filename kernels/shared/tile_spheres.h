@@ -127,12 +127,15 @@ SHARED void fold(const TileView view, const SphereLanes s, truth folded, private
   field->yz = fma(REAL(2.0) * c2 * uy, uz, field->yz);
 }
 
-/// Appends `first` + lane for each lane that `counts`; what does not count is written over by the next that does.
-SHARED uint append(global uint* list, uint length, uint first, truth counts) {
+/// Appends `first` + lane and 1/radius for each lane that `counts`; what does not count is written over by the next that
+/// does.
+SHARED uint append(global uint2* list, uint length, uint first, real radius, truth counts) {
   int steps[W];
+  uint scales[W];
   STORE(counts & 1, steps, 0);
+  STORE(JOIN(as_uint, W)(REAL(1.0) / radius), scales, 0);
   for (uint lane = 0; lane < W; ++lane) {
-    list[length] = first + lane;
+    list[length] = (uint2)(first + lane, scales[lane]);
     length += steps[lane];
   }
   return length;
