@@ -96,7 +96,7 @@ TEST_P(BallOverGround, DarkensItByTheClosedForm) {
   Scene scene = open_ground();
   OccluderSource ball;
   ball.name = "ball";
-  ball.parts.push_back({"ball", OccluderPart::Shape::ellipsoid, glm::dvec3(1), {}, {}, UpAxis::y, 1, {}});
+  ball.parts.push_back({.name = "ball", .shape = OccluderPart::Shape::ellipsoid});
   ball.keyframes = {{0, {0.3, 0.1, 0.8}, {0, 0, 0}}};
   scene.occluders.push_back(ball);
   scene.methods.occluders = GetParam().name;
