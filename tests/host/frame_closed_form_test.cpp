@@ -96,7 +96,9 @@ TEST_P(BallOverGround, DarkensItByTheClosedForm) {
   Scene scene = open_ground();
   OccluderSource ball;
   ball.name = "ball";
-  ball.parts.push_back({.name = "ball", .shape = OccluderPart::Shape::ellipsoid});
+  OccluderPart& whole = ball.parts.emplace_back();
+  whole.name = "ball";
+  whole.shape = OccluderPart::Shape::ellipsoid;
   ball.keyframes = {{0, {0.3, 0.1, 0.8}, {0, 0, 0}}};
   scene.occluders.push_back(ball);
   scene.methods.occluders = GetParam().name;
