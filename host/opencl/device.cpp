@@ -109,12 +109,13 @@ double milliseconds(const cl::Event& event) {
 
 std::vector<DeviceInfo> list_devices() { return describe_all(all_devices()); }
 
-Device::Device(const std::string& selector) : impl_(std::make_unique<Impl>()) {
+Device::Device(const std::string& selector, const std::string& build_options) : impl_(std::make_unique<Impl>()) {
   const std::vector<cl::Device> devices = all_devices();
   const std::vector<DeviceInfo> infos = describe_all(devices);
   const std::size_t chosen = choose(infos, selector);
   impl_->info = infos[chosen];
   impl_->device = devices[chosen];
+  impl_->options_of_all = build_options;
   try {
     impl_->context = cl::Context(impl_->device);
     impl_->queue = cl::CommandQueue(impl_->context, impl_->device, CL_QUEUE_PROFILING_ENABLE);

@@ -26,8 +26,9 @@ class Device {
  public:
   /// `selector`: empty, an index, "cpu", "gpu", or part of a platform or device name; empty falls back to the
   /// variable UNDERSTORY_DEVICE, then the first CPU, then the first device.
+  /// `build_options`: for every program of this device, before its own; for measuring what they change.
   /// Throws Error(no_device) with the list of what there is, or how to install PoCL when there is nothing.
-  explicit Device(const std::string& selector = "");
+  explicit Device(const std::string& selector = "", const std::string& build_options = "");
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

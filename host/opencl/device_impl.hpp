@@ -15,6 +15,7 @@ struct Device::Impl {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;  // in order, profiling
+  std::string options_of_all;
 
   std::map<std::string, cl::Program> programs;              // key: stem and options
   std::vector<std::pair<std::string, cl::Event>> launches;  // pass name and event, not yet summed

@@ -36,6 +36,7 @@ std::string Device::Impl::build_options(const std::string& options) const {
   std::string all = "-cl-std=CL1.2 -cl-kernel-arg-info";
   if ((' ' + options).find(" -DW=") == std::string::npos) all += " -DW=" + std::to_string(info.vector_width);
   if (info.atomic64) all += " -DUNDERSTORY_ATOMIC64";
+  if (!options_of_all.empty()) all += " " + options_of_all;
   return options.empty() ? all : all + " " + options;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "sim/error.hpp"
+#include "sim/files/local_origin.hpp"
 #include "sim/files/scene_reader.hpp"
 
 namespace understory {
@@ -47,7 +48,10 @@ Decoded decode(const std::filesystem::path& file, const std::vector<std::string>
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Decoded result = decode(file, overrides);
-  if (result.problems.empty()) return std::move(result.scene);
+  if (result.problems.empty()) {
+    if (const glm::dvec2 zero = local_zero(result.scene); zero != glm::dvec2(0)) move_zero(result.scene, zero);
+    return std::move(result.scene);
+  }
   const std::size_t more = result.problems.size() - 1;
   const std::string rest = more ? fmt::format(" (and {} more: `understory validate` lists them all)", more) : "";
   throw Error(ErrorKind::invalid_input, result.problems.front() + rest);

@@ -11,9 +11,9 @@ namespace understory {
 
 /// Reads a scene. `overrides` are `wind.speed=4.2`, with list positions counted from 0 (`occluders.0.name=ball`) and
 /// any YAML flow value on the right; `null` takes the key out. Relative paths start at the file's folder and may begin
-/// with an environment variable, `${UNDERSTORY_DATA}/plants/birch.glb`.
-/// Throws Error(invalid_input): `file:line:column: key: value: what is allowed`, the first of what validate_scene
-/// lists.
+/// with an environment variable, `${UNDERSTORY_DATA}/plants/birch.glb`. A scene in large coordinates gets a zero near
+/// its camera, and its origin says where that is (local_origin.hpp). Throws Error(invalid_input): `file:line:column:
+/// key: value: what is allowed`, the first of what validate_scene lists.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The methods of a scene that consists of `methods.KEY=VALUE` overrides alone: for images without a scene.
