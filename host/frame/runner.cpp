@@ -39,7 +39,8 @@ CameraView with_guard(CameraView camera, int guard) {
 struct FrameRunner::Impl {
   Impl(Device& the_device, const World& the_world);
   void choose(const Methods& methods);
-  void draw(const Pose& pose, const CameraView& camera);
+  void draw();
+  void shade();
 
   Device& device;
   const World& world;
@@ -47,6 +48,8 @@ struct FrameRunner::Impl {
   int guard = 0;  // pixels drawn around the image
   Geometry geometry;
   std::vector<SwaySeries> series;  // per World::grass
+  Pose pose;                       // of the last frame, and the camera that saw it, guard included
+  CameraView camera{};
   Buffer<LimbPose> limbs;
   VisibilityBuffer visible;
   FragmentPlanes planes;
@@ -90,7 +93,7 @@ void FrameRunner::Impl::choose(const Methods& methods) {
   visibility.emplace(device, &world, methods, plan, width, height);
 }
 
-void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
+void FrameRunner::Impl::draw() {
   if (pose_mesh) {
     if (limbs.size() != pose.limbs.size()) limbs = Buffer<LimbPose>(device, pose.limbs.size(), "limb poses");
     limbs.write(pose.limbs);
@@ -103,9 +106,14 @@ void FrameRunner::Impl::draw(const Pose& pose, const CameraView& camera) {
                       range.first_vertex, geometry.posed);
   }
   rasterise->run(geometry.triangles, geometry.posed, camera, visible);
+}
+
+void FrameRunner::Impl::shade() {
   const RestGeometry rest{geometry.blades,  static_cast<float>(-pose.eye.z), &geometry.rest,
                           &geometry.blocks, visibility->baked_faces(),       &geometry.mesh_grass};
   resolve->run(visible, geometry.triangles, geometry.posed, rest, camera, planes);
+  visibility->see(obscurance_view(camera));
+  visibility->run(&pose, owners, planes);
 }
 
 FrameRunner::FrameRunner(Device& device, const World& world) : impl_(std::make_unique<Impl>(device, world)) {}
@@ -116,12 +124,11 @@ const Plan& FrameRunner::plan() const { return impl_->plan; }
 
 Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   const Scene& scene = impl_->world.scene;
-  const Pose pose = pose_at(impl_->world, time, scene.camera.position);
+  impl_->pose = pose_at(impl_->world, time, scene.camera.position);
   impl_->device.take_pass_times();
-  const CameraView camera = with_guard(camera_view(scene.camera, scene.image, pixel_offset), impl_->guard);
-  impl_->draw(pose, camera);
-  impl_->visibility->see(obscurance_view(camera));
-  impl_->visibility->run(&pose, impl_->owners, impl_->planes);
+  impl_->camera = with_guard(camera_view(scene.camera, scene.image, pixel_offset), impl_->guard);
+  impl_->draw();
+  impl_->shade();
 
   Frame frame;
   frame.index = index;
@@ -136,10 +143,12 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   frame.vertical_fov = scene.camera.vertical_fov;
   frame.near_plane = scene.camera.near_plane;
   frame.pass_ms = impl_->device.take_pass_times();
-  read_planes(impl_->planes, pose.eye, frame);
+  read_planes(impl_->planes, impl_->pose.eye, frame);
   read_visibility(*impl_->visibility, impl_->planes.row_length, frame);
   return frame;
 }
+
+void FrameRunner::shade_again() { impl_->shade(); }
 
 PosedGeometry FrameRunner::posed_geometry() const {
   return read_geometry(impl_->geometry, impl_->world.scene.camera.position);

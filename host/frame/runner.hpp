@@ -24,6 +24,9 @@ class FrameRunner {
   /// Poses, rasterises, resolves and shades one frame at world.scene.image size. `pixel_offset` in [-0.5, 0.5] shifts
   /// the sample inside every pixel (supersampling).
   Frame render(int index, double time, glm::dvec2 pixel_offset = glm::dvec2(0));
+  /// Resolves and shades the last rendered frame once more, with the methods chosen since; nothing is read back, so
+  /// that the passes can be timed. The methods' guard bands must be that frame's.
+  void shade_again();
   /// The triangles of the last rendered frame.
   PosedGeometry posed_geometry() const;
 

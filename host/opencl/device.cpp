@@ -164,6 +164,8 @@ std::map<std::string, double> Device::take_pass_times() {
   return std::exchange(impl_->pass_ms, {});
 }
 
+void Device::use_build_options(const std::string& build_options) { impl_->options_of_all = build_options; }
+
 std::vector<std::string> Device::programs_built() const {
   std::set<std::string> stems;
   for (const auto& [key, program] : impl_->programs) stems.insert(key.substr(0, key.find(' ')));

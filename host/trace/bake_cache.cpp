@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::string_view magic = "understory bake 1\n";
 constexpr const char* extension = ".bake";
+
+std::atomic<int> fresh_bakes = 0;  // FreshBakes alive
 
 std::string checksum_of(std::string_view bytes) {
   ContentHash sum;
@@ -82,6 +85,7 @@ fs::path bake_cache_folder() {
 }
 
 std::optional<std::string> load_bake(std::string_view kind, const ContentHash& hash) {
+  if (fresh_bakes > 0) return std::nullopt;
   const fs::path folder = bake_cache_folder();
   if (folder.empty()) return std::nullopt;
   std::ifstream file(file_of(folder, kind, hash), std::ios::binary);
@@ -104,6 +108,9 @@ void store_bake(std::string_view kind, const ContentHash& hash, std::string_view
   } catch (const Error&) {  // a full disk, say: the result is at hand all the same
   }
 }
+
+FreshBakes::FreshBakes() { ++fresh_bakes; }
+FreshBakes::~FreshBakes() { --fresh_bakes; }
 
 BakeCacheInfo bake_cache_info() {
   BakeCacheInfo info;

@@ -46,6 +46,15 @@ std::optional<std::string> load_bake(std::string_view kind, const ContentHash& h
 /// Keeps `bytes`; whole or not at all. A cache that cannot be written is no error.
 void store_bake(std::string_view kind, const ContentHash& hash, std::string_view bytes);
 
+/// While one lives, load_bake finds nothing: everything is baked anew, and kept again. For measuring what bakes cost.
+class FreshBakes {
+ public:
+  FreshBakes();
+  ~FreshBakes();
+  FreshBakes(const FreshBakes&) = delete;
+  FreshBakes& operator=(const FreshBakes&) = delete;
+};
+
 struct BakeCacheInfo {
   std::filesystem::path folder;
   std::size_t files = 0;

@@ -1,0 +1,321 @@
+// In stages: every term alone; the terms of the predicted front at half the size; the combinations on the front, whole,
+// in turn so that drift of the machine meets all alike; the best of those with relaxed maths.
+#include "bench/tradeoff.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "bench/accuracy_pictures.hpp"
+#include "bench/tradeoff_judge.hpp"
+#include "bench/tradeoff_model.hpp"
+#include "bench/tradeoff_store.hpp"
+#include "host/frame/occluder_grids.hpp"
+#include "host/trace/bake_cache.hpp"
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+constexpr int half_size = 2;
+constexpr int picture_rays = 64;  // of the truth in pictures of errors, per pixel
+constexpr int relaxed_variants = 4;
+
+double seconds_of(const std::function<void()>& action) {
+  const auto started = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+/// What has to be baked before these methods run, as a key; empty: nothing.
+std::string bakes_of(const Methods& methods) {
+  std::string bakes;
+  if (methods.tree == "crown-field" || methods.tree == "crown-baked") bakes += methods.tree;
+  if (is_grid_method(methods.occluders)) bakes += "grid" + std::to_string(methods.grid.size);
+  return bakes;
+}
+
+void append(const std::vector<double>& more, std::vector<double>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void append(const ShadingSamples& more, ShadingSamples& all) {
+  all.draw_ms = all.device_ms.empty() ? more.draw_ms : 0.5 * (all.draw_ms + more.draw_ms);
+  append(more.device_ms, all.device_ms);
+  append(more.wall_ms, all.wall_ms);
+  for (const auto& [pass, milliseconds] : more.pass_ms) append(milliseconds, all.pass_ms[pass]);
+}
+
+class Measuring {
+ public:
+  Measuring(Device& device, World& world, const TradeoffOptions& options)
+      : device_(device),
+        world_(world),
+        options_(options),
+        store_(options.folder.empty() ? options.folder : options.folder / "variants", options.identity),
+        judge_(device, world, judge_options(world, options)) {}
+
+  TradeoffTable table();
+
+ private:
+  static JudgeOptions judge_options(const World& world, const TradeoffOptions& options) {
+    return {spread_frames(world.scene.time.frames, options.frames), options.pixels, options.rays, true};
+  }
+  bool stopped() const { return options_.stopped && options_.stopped(); }
+  void step(const std::string& next);
+  VariantRecord& measured(const Variant& variant, bool whole);
+  void measure_first(VariantRecord& record, bool whole);
+  void time_once_more(VariantRecord& record);
+  std::optional<TradeoffModel> model(int shrink, const std::vector<Term>& terms);
+  std::vector<Term> terms_on_front(const TradeoffModel& model) const;
+  void measure_whole(const std::vector<Variant>& variants);
+  void add_front(const TradeoffModel& model, std::vector<Variant>& whole);
+  std::vector<TradeoffRow> rows() const;
+  void write_pictures(const std::vector<TradeoffRow>& rows);
+  void describe(TradeoffTable& table) const;
+
+  Device& device_;
+  World& world_;
+  const TradeoffOptions& options_;
+  TradeoffStore store_;
+  TradeoffJudge judge_;
+  std::map<std::string, VariantRecord> records_;  // by name
+  std::map<std::string, Combination> predicted_;
+  std::set<std::string> baked_;
+  PredictionQuality prediction_;
+  int done_ = 0, total_ = 0;
+};
+
+void Measuring::step(const std::string& next) {
+  if (options_.progress) options_.progress(done_, total_, next);
+  ++done_;
+}
+
+/// Builds the variant twice: from warm caches the second time, and from no bakes at all the first where that is asked.
+void Measuring::measure_first(VariantRecord& record, bool whole) {
+  TradeoffRow& row = record.row;
+  const std::string bakes = bakes_of(row.variant.methods);
+  const bool fresh = options_.bakes && !bakes.empty() && baked_.insert(bakes).second;
+  double first_s = 0;
+  if (fresh) {
+    const FreshBakes none_kept;
+    first_s = seconds_of([&] { judge_.choose(row.variant); });
+  } else {
+    judge_.choose(row.variant);
+  }
+  row.start_s = seconds_of([&] { judge_.choose(row.variant); });
+  if (fresh) row.bake_s = std::max(0.0, first_s - row.start_s);
+  try {
+    record.values = judge_.values(whole);
+    row.verified = true;
+  } catch (const Error& error) {  // a wrong picture has no speed
+    row.failure = error.what();
+    return;
+  }
+  row.mib = static_cast<double>(device_.buffer_bytes()) / (1 << 20);
+  row.error = judge_.error(record.values.visibility);
+  row.classes = judge_.class_errors(record.values.visibility);
+  row.views = judge_.view_errors(record.values.visibility);
+  if (whole) row.temporal = judge_.temporal_error(record.values);
+  record.values.following.clear();
+  record.samples = judge_.time(options_.rounds);
+  record.sweeps = 1;
+}
+
+/// The record of a variant that may have been measured before. `whole`: with its error in time.
+VariantRecord& Measuring::measured(const Variant& variant, bool whole) {
+  const std::string name = variant.name();
+  auto found = records_.find(name);
+  if (found == records_.end()) {
+    if (std::optional<VariantRecord> kept = store_.load(name)) found = records_.emplace(name, std::move(*kept)).first;
+  }
+  const bool complete =
+      found != records_.end() && (!whole || found->second.row.temporal || !found->second.row.verified);
+  if (complete) {
+    if (found->second.row.bake_s >= 0) baked_.insert(bakes_of(variant.methods));
+    return found->second;
+  }
+  VariantRecord record;
+  record.row.variant = variant;
+  record.row.name = name;
+  record.row.settings = variant.settings(world_.scene);
+  if (found != records_.end()) record.row.bake_s = found->second.row.bake_s;
+  measure_first(record, whole);
+  store_.save(record);
+  return records_.insert_or_assign(name, std::move(record)).first->second;
+}
+
+void Measuring::time_once_more(VariantRecord& record) {
+  judge_.choose(record.row.variant);
+  append(judge_.time(options_.rounds), record.samples);
+  ++record.sweeps;
+  store_.save(record);
+}
+
+std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term>& terms) {
+  const auto term_of = [&](Axis axis, Variant variant) -> std::optional<MeasuredTerm> {
+    variant.shrink = shrink;
+    if (stopped()) return std::nullopt;
+    step(variant.name());
+    const VariantRecord& record = measured(variant, false);
+    if (!record.row.verified) return std::nullopt;
+    return MeasuredTerm{axis, variant, record.values, spread_of(record.samples.device_ms).median};
+  };
+  std::vector<float> truth;
+  double variance = 0;
+  for (const JudgedView& view : judge_.views()) {
+    truth.insert(truth.end(), view.truth.visibility.begin(), view.truth.visibility.end());
+    for (std::size_t i = 0; i < view.pixels.size(); ++i)
+      variance += truth_variance(view.truth.halfwidth[i], view.truth.rays[i]);
+  }
+  if (!truth.empty()) variance /= static_cast<double>(truth.size());
+  std::optional<MeasuredTerm> bare = term_of(Axis::tree, bare_variant(world_.scene));
+  if (!bare) return std::nullopt;
+  std::vector<MeasuredTerm> usable;
+  for (const Term& term : terms)
+    if (std::optional<MeasuredTerm> one = term_of(term.axis, term.variant)) usable.push_back(std::move(*one));
+  if (stopped()) return std::nullopt;
+  return TradeoffModel(std::move(truth), variance, std::move(*bare), std::move(usable));
+}
+
+/// The terms that occur on the predicted front of the scene's own size, and of the scene's own methods.
+std::vector<Term> Measuring::terms_on_front(const TradeoffModel& model) const {
+  std::vector<Methods> chosen{own_variant(world_).methods};
+  for (const Combination& one : predicted_front(model.predict(), options_.combinations))
+    chosen.push_back(model.variant_of(one).methods);
+  std::vector<Term> terms = terms_of(world_);
+  std::erase_if(terms, [&](const Term& term) {
+    return std::none_of(chosen.begin(), chosen.end(), [&](const Methods& methods) {
+      Variant alone{with_term(bare_variant(world_.scene).methods, term.axis, methods)};
+      alone.methods.near_field.combine = term.variant.methods.near_field.combine;
+      return alone.name() == term.variant.name();
+    });
+  });
+  return terms;
+}
+
+/// Notes what the model predicts of its front, and adds it to what is to be measured whole.
+void Measuring::add_front(const TradeoffModel& model, std::vector<Variant>& whole) {
+  const std::vector<Combination> all = model.predict();
+  prediction_.combinations += all.size();
+  for (const Combination& one : predicted_front(all, options_.combinations)) {
+    whole.push_back(model.variant_of(one));
+    predicted_[whole.back().name()] = one;
+  }
+  const std::string own = own_variant(world_).name();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Combination& one) { return model.variant_of(one).name() == own; });
+  if (found != all.end()) predicted_[own] = *found;
+}
+
+void Measuring::measure_whole(const std::vector<Variant>& variants) {
+  for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+    for (std::size_t turn = 0; turn < variants.size() && !stopped(); ++turn) {
+      const Variant& variant = variants[sweep % 2 == 0 ? turn : variants.size() - 1 - turn];
+      step(variant.name());
+      VariantRecord& record = measured(variant, true);
+      if (record.row.verified && record.sweeps <= sweep) time_once_more(record);
+    }
+  }
+}
+
+std::vector<TradeoffRow> Measuring::rows() const {
+  std::map<int, std::vector<double>> drawing;
+  for (const auto& [name, record] : records_)
+    if (record.row.verified) drawing[record.row.variant.shrink].push_back(record.samples.draw_ms);
+  std::vector<TradeoffRow> rows;
+  for (const auto& [name, record] : records_) {
+    TradeoffRow row = record.row;
+    if (row.verified) {
+      row.ms = spread_of(record.samples.device_ms);
+      row.wall_ms = spread_of(record.samples.wall_ms);
+      for (const auto& [pass, milliseconds] : record.samples.pass_ms)
+        row.pass_ms[pass] = spread_of(milliseconds).median;
+      row.frame_ms = row.ms.median + spread_of(drawing[row.variant.shrink]).median;
+    }
+    if (const auto found = predicted_.find(name); found != predicted_.end()) {
+      row.predicted_ms = found->second.ms;
+      row.predicted_rmse = found->second.rmse;
+    }
+    rows.push_back(std::move(row));
+  }
+  std::sort(rows.begin(), rows.end(), [](const TradeoffRow& a, const TradeoffRow& b) {
+    return a.ms.median != b.ms.median ? a.ms.median < b.ms.median : a.name < b.name;
+  });
+  mark_front(rows);
+  return rows;
+}
+
+/// Truth, what the variant makes of it, and the difference, in the first frame that each camera sees.
+void Measuring::write_pictures(const std::vector<TradeoffRow>& rows) {
+  for (const JudgedView& view : judge_.views()) {
+    if (view.frame != judge_.views().front().frame) continue;
+    std::optional<Frame> truth;
+    for (const TradeoffRow& row : rows) {
+      if (!row.pareto || stopped()) continue;
+      step("pictures of " + row.name);
+      if (!truth) truth = judge_.truth_frame(view, picture_rays);
+      judge_.choose(row.variant);
+      const std::string camera = view.camera == 0 ? "" : " opposite";
+      write_accuracy_picture(options_.folder / "errors", variant_file_name(row.name, "") + camera, *truth,
+                             judge_.frame(view));
+    }
+  }
+}
+
+void Measuring::describe(TradeoffTable& table) const {
+  table.scene = world_.scene.name;
+  table.device = device_.info().name;
+  table.identity = options_.identity;
+  for (const JudgedView& view : judge_.views()) {
+    if (view.camera == 0) table.frames.push_back(view.frame);
+    table.cameras = std::max(table.cameras, view.camera + 1);
+    table.pixels += view.pixels.size();
+  }
+  table.rays = options_.rays;
+  for (const TradeoffRow& row : table.rows)
+    if (row.verified) table.draw_ms[row.variant.shrink] = row.frame_ms - row.ms.median;
+  table.prediction = prediction_;
+  PredictionQuality& quality = table.prediction;
+  for (const TradeoffRow& row : table.rows) {
+    if (!row.predicted_ms || !row.temporal || !row.verified) continue;
+    const double time = *row.predicted_ms / row.ms.median - 1, error = *row.predicted_rmse - row.error.rmse;
+    ++quality.measured;
+    quality.ms_bias += time;
+    quality.ms_worst = std::max(quality.ms_worst, std::abs(time));
+    quality.rmse_bias += error;
+    quality.rmse_worst = std::max(quality.rmse_worst, std::abs(error));
+  }
+  if (quality.measured == 0) return;
+  quality.ms_bias /= static_cast<double>(quality.measured);
+  quality.rmse_bias /= static_cast<double>(quality.measured);
+}
+
+TradeoffTable Measuring::table() {
+  const std::vector<Term> terms = terms_of(world_);
+  const int sweeps = options_.sweeps * (2 * options_.combinations + relaxed_variants);
+  total_ = static_cast<int>(terms.size()) + 1 + options_.combinations + sweeps;
+  TradeoffTable table;
+  std::vector<Variant> whole{own_variant(world_)};
+  const std::optional<TradeoffModel> full = model(1, terms);
+  if (full) {
+    const std::vector<Term> half_terms = terms_on_front(*full);
+    add_front(*full, whole);
+    if (const std::optional<TradeoffModel> half = model(half_size, half_terms)) add_front(*half, whole);
+  }
+  measure_whole(whole);
+  table.rows = rows();
+  if (!options_.folder.empty()) write_pictures(table.rows);
+  describe(table);
+  return table;
+}
+
+}  // namespace
+
+TradeoffTable measure_tradeoff(Device& device, World& world, const TradeoffOptions& options) {
+  return Measuring(device, world, options).table();
+}
+
+}  // namespace understory

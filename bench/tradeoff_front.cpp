@@ -1,0 +1,48 @@
+#include <algorithm>
+
+#include "bench/tradeoff.hpp"
+
+namespace understory {
+namespace {
+
+bool clearly_faster(const TradeoffRow& a, const TradeoffRow& b) { return a.ms.high < b.ms.low; }
+bool clearly_better(const TradeoffRow& a, const TradeoffRow& b) { return a.error.high < b.error.low; }
+
+bool beats(const TradeoffRow& a, const TradeoffRow& b) {
+  return (clearly_faster(a, b) && !clearly_better(b, a)) || (clearly_better(a, b) && !clearly_faster(b, a));
+}
+
+/// Without intervals: no worse in both, better in one.
+bool beats_by_medians(const TradeoffRow& a, const TradeoffRow& b) {
+  return a.ms.median <= b.ms.median && a.error.rmse <= b.error.rmse &&
+         (a.ms.median < b.ms.median || a.error.rmse < b.error.rmse);
+}
+
+template <class Beats>
+bool mark(std::vector<TradeoffRow>& rows, const Beats& is_beaten_by) {
+  bool any = false;
+  for (TradeoffRow& row : rows) {
+    row.pareto = row.verified && std::none_of(rows.begin(), rows.end(), [&](const TradeoffRow& other) {
+                   return other.verified && is_beaten_by(other, row);
+                 });
+    any = any || row.pareto;
+  }
+  return any;
+}
+
+}  // namespace
+
+void mark_front(std::vector<TradeoffRow>& rows) {
+  for (TradeoffRow& row : rows) {
+    row.ties.clear();
+    for (const TradeoffRow& other : rows) {
+      const bool apart = clearly_faster(row, other) || clearly_faster(other, row) || clearly_better(row, other) ||
+                         clearly_better(other, row);
+      if (&other != &row && row.verified && other.verified && !apart) row.ties.push_back(other.name);
+    }
+  }
+  // Wide intervals can beat each other in a circle of four that leaves nobody; then the medians decide.
+  if (!mark(rows, beats)) mark(rows, beats_by_medians);
+}
+
+}  // namespace understory

@@ -1,0 +1,202 @@
+#include "bench/tradeoff_json.hpp"
+
+#include <algorithm>
+
+#include "sim/error.hpp"
+#include "sim/files/scene_file.hpp"
+
+namespace understory {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Everything under `methods`, as scene files write it.
+Json methods_json(const Methods& methods) {
+  Scene scene;
+  scene.methods = methods;
+  return Json::parse(resolved_scene(scene)).at("methods");
+}
+
+Methods methods_from_json(const Json& json) {
+  std::vector<std::string> overrides;
+  const Json keys = json.flatten();
+  for (const auto& [pointer, value] : keys.items()) {
+    std::string key = "methods" + pointer;
+    std::replace(key.begin(), key.end(), '/', '.');
+    overrides.push_back(key + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  return load_methods(overrides);
+}
+
+Json spread_json(const Spread95& spread) {
+  return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
+Spread95 spread_from_json(const Json& json) {
+  return {json.at("median").get<double>(), json.at("low").get<double>(), json.at("high").get<double>()};
+}
+
+Json error_json(const RmseInterval& error) {
+  return {{"rmse", error.rmse}, {"rmse_low", error.low},  {"rmse_high", error.high},
+          {"bias", error.bias}, {"pixels", error.pixels}, {"truth_noise", error.truth_noise}};
+}
+
+RmseInterval error_from_json(const Json& json) {
+  RmseInterval error;
+  json.at("rmse").get_to(error.rmse);
+  json.at("rmse_low").get_to(error.low);
+  json.at("rmse_high").get_to(error.high);
+  json.at("bias").get_to(error.bias);
+  json.at("pixels").get_to(error.pixels);
+  json.at("truth_noise").get_to(error.truth_noise);
+  return error;
+}
+
+Json classes_json(const std::map<std::string, RmseInterval>& classes) {
+  Json json = Json::object();
+  for (const auto& [name, error] : classes) json[name] = error_json(error);
+  return json;
+}
+
+std::map<std::string, RmseInterval> classes_from_json(const Json& json) {
+  std::map<std::string, RmseInterval> classes;
+  for (const auto& [name, error] : json.items()) classes[name] = error_from_json(error);
+  return classes;
+}
+
+Json views_json(const std::vector<ViewError>& views) {
+  Json all = Json::array();
+  for (const ViewError& view : views) {
+    Json one = {{"camera", view.camera}, {"frame", view.frame}};
+    one.update(error_json(view.all));
+    one["classes"] = classes_json(view.classes);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// A number, or null for one that is not known.
+Json known(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::optional<double> optional_number(const Json& json, const char* key) {
+  return json.at(key).is_null() ? std::nullopt : std::optional(json.at(key).get<double>());
+}
+
+}  // namespace
+
+Json row_json(const TradeoffRow& row) {
+  Json json = {{"name", row.name},
+               {"methods", methods_json(row.variant.methods)},
+               {"shrink", row.variant.shrink},
+               {"relaxed_maths", row.variant.relaxed_maths},
+               {"settings", row.settings},
+               {"verified", row.verified},
+               {"failure", row.failure},
+               {"ms", row.ms.median},
+               {"ms_low", row.ms.low},
+               {"ms_high", row.ms.high}};
+  json.update(error_json(row.error));
+  json["mib"] = row.mib;
+  json["pareto"] = row.pareto;
+  json["ties"] = row.ties;
+  json["wall_ms"] = spread_json(row.wall_ms);
+  json["frame_ms"] = row.frame_ms;
+  json["pass_ms"] = row.pass_ms;
+  json["start_s"] = row.start_s;
+  json["bake_s"] = row.bake_s < 0 ? Json(nullptr) : Json(row.bake_s);
+  json["classes"] = classes_json(row.classes);
+  json["views"] = views_json(row.views);
+  json["temporal"] = nullptr;
+  if (row.temporal)
+    json["temporal"] = {{"rmse_dvdt", row.temporal->rmse_dvdt},
+                        {"truth_dvdt", row.temporal->truth_dvdt},
+                        {"flicker", row.temporal->flicker}};
+  json["predicted_ms"] = known(row.predicted_ms);
+  json["predicted_rmse"] = known(row.predicted_rmse);
+  return json;
+}
+
+TradeoffRow row_from_json(const Json& json) {
+  TradeoffRow row;
+  row.variant.methods = methods_from_json(json.at("methods"));
+  json.at("shrink").get_to(row.variant.shrink);
+  json.at("relaxed_maths").get_to(row.variant.relaxed_maths);
+  json.at("name").get_to(row.name);
+  json.at("settings").get_to(row.settings);
+  json.at("verified").get_to(row.verified);
+  json.at("failure").get_to(row.failure);
+  row.ms = {json.at("ms").get<double>(), json.at("ms_low").get<double>(), json.at("ms_high").get<double>()};
+  row.error = error_from_json(json);
+  json.at("mib").get_to(row.mib);
+  json.at("pareto").get_to(row.pareto);
+  json.at("ties").get_to(row.ties);
+  row.wall_ms = spread_from_json(json.at("wall_ms"));
+  json.at("frame_ms").get_to(row.frame_ms);
+  json.at("pass_ms").get_to(row.pass_ms);
+  json.at("start_s").get_to(row.start_s);
+  row.bake_s = optional_number(json, "bake_s").value_or(-1);
+  row.classes = classes_from_json(json.at("classes"));
+  for (const Json& view : json.at("views"))
+    row.views.push_back({view.at("camera").get<int>(), view.at("frame").get<int>(), error_from_json(view),
+                         classes_from_json(view.at("classes"))});
+  if (const Json& temporal = json.at("temporal"); !temporal.is_null())
+    row.temporal = TemporalError{temporal.at("rmse_dvdt").get<double>(), temporal.at("truth_dvdt").get<double>(),
+                                 temporal.at("flicker").get<double>()};
+  row.predicted_ms = optional_number(json, "predicted_ms");
+  row.predicted_rmse = optional_number(json, "predicted_rmse");
+  return row;
+}
+
+std::string tradeoff_json(const TradeoffTable& table) {
+  Json rows = Json::array(), drawing = Json::array();
+  for (const TradeoffRow& row : table.rows) rows.push_back(row_json(row));
+  for (const auto& [shrink, ms] : table.draw_ms) drawing.push_back({{"shrink", shrink}, {"ms", ms}});
+  const PredictionQuality& prediction = table.prediction;
+  const Json json = {{"scene", table.scene},
+                     {"device", table.device},
+                     {"identity", table.identity},
+                     {"frames", table.frames},
+                     {"cameras", table.cameras},
+                     {"pixels", table.pixels},
+                     {"rays", table.rays},
+                     {"draw_ms", drawing},
+                     {"prediction",
+                      {{"combinations", prediction.combinations},
+                       {"measured", prediction.measured},
+                       {"ms_bias", prediction.ms_bias},
+                       {"ms_worst", prediction.ms_worst},
+                       {"rmse_bias", prediction.rmse_bias},
+                       {"rmse_worst", prediction.rmse_worst}}},
+                     {"rows", rows}};
+  return json.dump(1) + "\n";
+}
+
+TradeoffTable read_tradeoff(const std::string& text, const std::string& where) {
+  try {
+    const Json json = Json::parse(text);
+    TradeoffTable table;
+    json.at("scene").get_to(table.scene);
+    json.at("device").get_to(table.device);
+    json.at("identity").get_to(table.identity);
+    json.at("frames").get_to(table.frames);
+    json.at("cameras").get_to(table.cameras);
+    json.at("pixels").get_to(table.pixels);
+    json.at("rays").get_to(table.rays);
+    for (const Json& drawing : json.at("draw_ms"))
+      table.draw_ms[drawing.at("shrink").get<int>()] = drawing.at("ms").get<double>();
+    const Json& prediction = json.at("prediction");
+    prediction.at("combinations").get_to(table.prediction.combinations);
+    prediction.at("measured").get_to(table.prediction.measured);
+    prediction.at("ms_bias").get_to(table.prediction.ms_bias);
+    prediction.at("ms_worst").get_to(table.prediction.ms_worst);
+    prediction.at("rmse_bias").get_to(table.prediction.rmse_bias);
+    prediction.at("rmse_worst").get_to(table.prediction.rmse_worst);
+    for (const Json& row : json.at("rows")) table.rows.push_back(row_from_json(row));
+    return table;
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorKind::invalid_input,
+                where + ": not a table of `understory tradeoff`: " + std::string(error.what()));
+  }
+}
+
+}  // namespace understory

@@ -1,0 +1,74 @@
+// What a variant makes of a scene's judged pixels: its planes there, its errors against their truth, and its time.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/judged_views.hpp"
+#include "bench/tradeoff.hpp"
+#include "host/frame/runner.hpp"
+
+namespace understory {
+
+/// Planes of a variant at the judged pixels of all views, one view after the other.
+struct JudgedValues {
+  std::vector<float> visibility;
+  std::vector<JudgedClass> classes;                 // what the variant's own image shows there
+  std::map<std::string, std::vector<float>> terms;  // by method name
+  std::vector<float> following;                     // V in the frames after; empty unless judged
+};
+
+/// Times of the resolve and all visibility passes after it. One entry a round: mean over the views, ms.
+struct ShadingSamples {
+  std::vector<double> device_ms, wall_ms;
+  std::map<std::string, std::vector<double>> pass_ms;
+  double draw_ms = 0;  // of what comes before, device time, mean over the views
+};
+
+class TradeoffJudge {
+ public:
+  /// Renders every view once and traces its pixels. `device` and `world`, which is calibrated, must outlive the judge,
+  /// which moves the world's camera and changes its image size.
+  TradeoffJudge(Device& device, World& world, const JudgeOptions& options);
+  ~TradeoffJudge();
+  TradeoffJudge(const TradeoffJudge&) = delete;
+  TradeoffJudge& operator=(const TradeoffJudge&) = delete;
+
+  /// Builds the variant's programs and tables: what is asked for next is of it.
+  void choose(const Variant& variant);
+
+  /// Renders all views. `following`: the frames after them too. Throws Error(unexpected) when V anywhere is not in
+  /// [0, 1], or differs when the first view is rendered again.
+  JudgedValues values(bool following = false);
+  /// Draws every view and shades it `rounds` times.
+  ShadingSamples time(int rounds);
+  /// A whole view as the variant shades it, and as traced truth with so many rays a pixel; both of the scene's size.
+  Frame frame(const JudgedView& view);
+  Frame truth_frame(const JudgedView& view, int rays);
+
+  const std::vector<JudgedView>& views() const { return views_; }
+
+  /// Errors of JudgedValues::visibility, over all views, by class, and by view.
+  RmseInterval error(const std::vector<float>& visibility) const;
+  std::map<std::string, RmseInterval> class_errors(const std::vector<float>& visibility) const;
+  std::vector<ViewError> view_errors(const std::vector<float>& visibility) const;
+  /// Needs JudgedValues::following.
+  TemporalError temporal_error(const JudgedValues& values) const;
+
+ private:
+  Frame render(const JudgedView& view, double time);
+  void look_from(const JudgedView& view);
+  /// The pixel of the variant's image that shows the middle of the scene's `pixel`.
+  std::size_t seen_pixel(std::uint32_t pixel, const Frame& frame) const;
+
+  Device& device_;
+  World& world_;
+  FrameRunner runner_;
+  const ImageSize image_;  // the scene's
+  const Camera camera_;
+  int shrink_ = 1;
+  std::vector<JudgedView> views_;
+};
+
+}  // namespace understory
