@@ -25,6 +25,7 @@ void add_truth(CLI::App& program, Command& chosen);
 void add_compare(CLI::App& program, Command& chosen);
 void add_validate(CLI::App& program, Command& chosen);
 void add_schema(CLI::App& program, Command& chosen);
+void add_explain(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_bake(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);

@@ -74,6 +74,7 @@ int main(int argument_count, char** arguments) {
   add_compare(program, chosen);
   add_validate(program, chosen);
   add_schema(program, chosen);
+  add_explain(program, chosen);
   add_calibrate(program, chosen);
   add_bake(program, chosen);
   add_bench(program, chosen);

@@ -81,20 +81,25 @@ int near_samples(const Methods& methods) {
 }
 
 void plan_near_field(const Methods& methods, Plan& plan) {
-  if (methods.near == "none") return;
+  if (methods.near == "none") return plan.left_out.push_back({"the near field", "methods.near: none", "methods.near"});
   const NearField& near_field = methods.near_field;
   if (near_field.normals == "depth")
-    plan.passes.push_back({"normals-from-depth", "normals_from_depth", "near_field.normals: depth"});
+    plan.passes.push_back(
+        {"normals-from-depth", "normals_from_depth", "normals made from depth", "methods.near_field.normals"});
   if (near_field.half_resolution)
-    plan.passes.push_back({"obscurance-half", "obscurance_half", "near_field.half_resolution"});
+    plan.passes.push_back(
+        {"obscurance-half", "obscurance_half", "half resolution", "methods.near_field.half_resolution"});
   if (methods.near == "obscurance-area")
-    plan.passes.push_back({"depth-moments", "depth_moments", "methods.near: obscurance-area"});
+    plan.passes.push_back(
+        {"depth-moments", "depth_moments", "moments of depth that area samples read", "methods.near"});
   std::string program = methods.near;
   program.replace(program.find('-'), 1, "_");
-  plan.passes.push_back({methods.near, program, "asked for"});
-  if (near_field.blur > 0) plan.passes.push_back({"obscurance-blur", "obscurance_blur", "near_field.blur"});
+  plan.passes.push_back({methods.near, program, "asked for", "methods.near"});
+  if (near_field.blur > 0)
+    plan.passes.push_back({"obscurance-blur", "obscurance_blur", "a blur was asked for", "methods.near_field.blur"});
   if (near_field.half_resolution)
-    plan.passes.push_back({"obscurance-upsample", "obscurance_upsample", "near_field.half_resolution"});
+    plan.passes.push_back(
+        {"obscurance-upsample", "obscurance_upsample", "half resolution", "methods.near_field.half_resolution"});
 }
 
 struct NearFieldPasses::Impl {

@@ -54,41 +54,107 @@ void check_names(const Methods& methods) {
 }
 
 void plan_geometry(const Contents& contents, Plan& plan) {
-  if (contents.meshes) plan.passes.push_back({"pose_mesh", "pose_mesh", "plants, occluders or terrain"});
-  if (contents.grass) plan.passes.push_back({"pose_grass", "pose_grass", "grass"});
-  plan.passes.push_back({"clear_visible", "rasterise", "every frame"});
-  if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", "plants, occluders or terrain"});
-  if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass"});
-  plan.passes.push_back({"resolve", "resolve", "every frame"});
+  const char* bodies = "plants, occluders or terrain";
+  if (contents.meshes) plan.passes.push_back({"pose_mesh", "pose_mesh", bodies, "plants, occluders, terrain"});
+  if (contents.grass) plan.passes.push_back({"pose_grass", "pose_grass", "grass", "grass"});
+  plan.passes.push_back({"clear_visible", "rasterise", "every frame", ""});
+  if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", bodies, "plants, occluders, terrain"});
+  if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
+  plan.passes.push_back({"resolve", "resolve", "every frame", ""});
+  if (!contents.meshes)
+    plan.left_out.push_back({"posing and drawing of bodies", "no plants, occluders or terrain", "plants"});
+  if (!contents.grass) plan.left_out.push_back({"posing and drawing of grass", "no field of grass", "grass"});
+}
+
+/// The model of crowns on their own leaves and wood. `ambient` is planned with its other users.
+void plan_tree(const Contents& contents, const Methods& methods, Plan& plan) {
+  const char* what = "crowns on their own leaves and wood";
+  if (!contents.crowns) return plan.left_out.push_back({what, "no plant has a crown", "plants"});
+  if (methods.tree == "none") return plan.left_out.push_back({what, "methods.tree: none", "methods.tree"});
+  if (methods.tree == "ambient") return;
+  std::string program = methods.tree;
+  std::replace(program.begin(), program.end(), '-', '_');
+  if (program == "shells_cap_levels") program = "shells_cap";
+  plan.passes.push_back({methods.tree, program, "plants with a crown", "methods.tree"});
+}
+
+/// The model of blades, but for `ambient`.
+void plan_grass(const Contents& contents, const Methods& methods, Plan& plan) {
+  const char* what = "grass on its own blades";
+  if (!contents.blades) return plan.left_out.push_back({what, "nothing has blades", "grass"});
+  if (methods.grass == "none") return plan.left_out.push_back({what, "methods.grass: none", "methods.grass"});
+  if (methods.grass == "grass-height")
+    plan.passes.push_back({"grass-height", "grass_height", "grass", "methods.grass"});
+  if (methods.grass == "grass-transmittance")
+    plan.passes.push_back(
+        {"grass-transmittance", "grass_transmittance", "grass and what stands in it", "methods.grass"});
+}
+
+/// The constant of whoever asks for it, and the ground under grass unless grass-transmittance lights that as well.
+void plan_ambient(const Contents& contents, const Methods& methods, Plan& plan) {
+  const bool layer = contents.blades && methods.grass == "grass-transmittance";
+  PlannedPass pass = {"ambient", "ambient", "", ""};
+  const auto join = [&](bool wanted, const char* user, const char* key) {
+    if (!wanted) return;
+    pass.because += (pass.because.empty() ? "" : ", ") + std::string(user);
+    pass.key += (pass.key.empty() ? "" : ", ") + std::string(key);
+  };
+  join(contents.ground_cover && !layer, "ground under grass", "grass");
+  join(contents.crowns && methods.tree == "ambient", "plants with a crown", "methods.tree");
+  join(contents.blades && methods.grass == "ambient", "grass", "methods.grass");
+  if (!pass.key.empty()) return plan.passes.push_back(std::move(pass));
+  if (layer)
+    plan.left_out.push_back({"a constant", "grass-transmittance lights the ground under grass", "methods.grass"});
+  else
+    plan.left_out.push_back({"a constant", "no ground under grass, and no method asks for one", "methods.tree"});
+}
+
+/// Crowns on everything else, and moving occluders; one pass when both ask for the same.
+void plan_spheres(const Contents& contents, const Methods& methods, Plan& plan) {
+  const std::string crowns = contents.crowns && contents.bodies_beside_crowns ? methods.crowns : "none";
+  const std::string occluders = contents.occluders ? methods.occluders : "none";
+  if (crowns != "none") {
+    const bool shared = crowns == occluders;
+    plan.passes.push_back({crowns, "solid_angle", shared ? "crowns and moving occluders" : "crowns",
+                           shared ? "methods.crowns, methods.occluders" : "methods.crowns"});
+  } else {
+    const char* what = "crowns on everything else";
+    if (!contents.crowns)
+      plan.left_out.push_back({what, "no plant has a crown", "plants"});
+    else if (!contents.bodies_beside_crowns)
+      plan.left_out.push_back({what, "nothing stands beside the crown", "plants"});
+    else
+      plan.left_out.push_back({what, "methods.crowns: none", "methods.crowns"});
+  }
+  if (!contents.occluders)
+    plan.left_out.push_back({"moving occluders on everything else", "no occluders", "occluders"});
+  else if (occluders == "none")
+    plan.left_out.push_back({"moving occluders on everything else", "methods.occluders: none", "methods.occluders"});
+  else if (occluders != crowns) {
+    const bool cone = occluders.starts_with("grid-cone"), grid = occluders.starts_with("grid");
+    plan.passes.push_back({occluders,
+                           cone   ? "grid_cone"
+                           : grid ? "grid"
+                                  : "solid_angle",
+                           "moving occluders", "methods.occluders"});
+  }
 }
 
 void plan_visibility(const Contents& contents, const Methods& methods, Plan& plan) {
-  const bool tree = contents.crowns && methods.tree != "none";
-  const bool grass = contents.blades && methods.grass != "none";
-  const bool layer = grass && methods.grass == "grass-transmittance";  // it lights the ground as well
-  const bool cover = contents.ground_cover && !layer;
-  if ((tree && methods.tree == "ambient") || (grass && methods.grass == "ambient") || cover)
-    plan.passes.push_back({"ambient", "ambient", cover ? "ground under grass" : "asked for"});
-  if (tree && methods.tree != "ambient") {
-    std::string program = methods.tree;
-    std::replace(program.begin(), program.end(), '-', '_');
-    if (program == "shells_cap_levels") program = "shells_cap";
-    plan.passes.push_back({methods.tree, program, "plants with a crown"});
-  }
-  if (grass && methods.grass == "grass-height") plan.passes.push_back({"grass-height", "grass_height", "grass"});
-  if (layer) plan.passes.push_back({"grass-transmittance", "grass_transmittance", "grass and what stands in it"});
-  if (contents.dome) plan.passes.push_back({"open-dome", "open_dome", "sky: dome"});
-  const std::string crowns = contents.crowns && contents.bodies_beside_crowns ? methods.crowns : "none";
-  const std::string occluders = contents.occluders ? methods.occluders : "none";
-  if (crowns != "none")
-    plan.passes.push_back({crowns, "solid_angle", crowns == occluders ? "crowns and moving occluders" : "crowns"});
-  if (occluders != "none" && occluders != crowns) {
-    const bool cone = occluders.starts_with("grid-cone"), grid = occluders.starts_with("grid");
-    plan.passes.push_back({occluders, cone ? "grid_cone" : grid ? "grid" : "solid_angle", "moving occluders"});
-  }
+  plan_ambient(contents, methods, plan);
+  plan_tree(contents, methods, plan);
+  plan_grass(contents, methods, plan);
+  if (contents.dome)
+    plan.passes.push_back({"open-dome", "open_dome", "sky: dome", "sky"});
+  else
+    plan.left_out.push_back({"the horizon of open surfaces", "sky: sphere", "sky"});
+  plan_spheres(contents, methods, plan);
   plan_near_field(methods, plan);
-  plan.passes.push_back({"combine", "combine", "every frame"});
-  if (contents.environment) plan.passes.push_back({"environment", "environment", "environment: map"});
+  plan.passes.push_back({"combine", "combine", "every frame", ""});
+  if (contents.environment)
+    plan.passes.push_back({"environment", "environment", "environment: map", "environment.map"});
+  else
+    plan.left_out.push_back({"coloured light of the sky", "no picture of the sky", "environment.map"});
 }
 
 }  // namespace

@@ -172,6 +172,8 @@ std::vector<std::string> Device::programs_built() const {
   return {stems.begin(), stems.end()};
 }
 
+std::vector<std::string> Device::kernels_made() const { return {impl_->kernels.begin(), impl_->kernels.end()}; }
+
 std::uint64_t Device::buffer_bytes() const { return impl_->buffer_bytes; }
 std::uint64_t Device::peak_buffer_bytes() const { return impl_->peak_buffer_bytes; }
 

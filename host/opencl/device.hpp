@@ -41,6 +41,8 @@ class Device {
   void use_build_options(const std::string& build_options);
   /// Names of the programs built so far on this device (stems of .cl files), sorted.
   std::vector<std::string> programs_built() const;
+  /// "program/kernel" of every kernel made so far, sorted.
+  std::vector<std::string> kernels_made() const;
   /// Bytes of live buffers, and the most there ever were.
   std::uint64_t buffer_bytes() const;
   std::uint64_t peak_buffer_bytes() const;

@@ -1,6 +1,7 @@
 // What a Device holds. For host/opencl only.
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct Device::Impl {
   std::string options_of_all;
 
   std::map<std::string, cl::Program> programs;              // key: stem and options
+  std::set<std::string> kernels;                            // program/kernel
   std::vector<std::pair<std::string, cl::Event>> launches;  // pass name and event, not yet summed
   std::map<std::string, double> pass_ms;                    // summed so far
   std::uint64_t buffer_bytes = 0, peak_buffer_bytes = 0;

@@ -79,6 +79,7 @@ Kernel::Kernel(Device& device, const std::string& program, const std::string& na
     impl_->fail(std::string(error.what()) + ": " + status_text(error.err()));
   }
   impl_->takes_buffer = buffer_arguments(impl_->kernel, impl_->arguments);
+  on.kernels.insert(program + '/' + name);
 }
 
 Kernel::~Kernel() = default;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/support/errors.hpp"
@@ -32,6 +33,7 @@ Taken render_one(const Scene& scene) {
   taken.frame = runner.render(0, 0.5);
   for (const PlannedPass& pass : runner.plan().passes) {
     EXPECT_FALSE(pass.because.empty()) << pass.name;
+    EXPECT_EQ(pass.key.empty(), pass.because == "every frame") << pass.name << " was asked for by a key, or by none";
     taken.passes.insert(pass.name);
     taken.programs.insert(pass.program);
   }
@@ -208,6 +210,62 @@ TEST(Plan, OfTheNearFieldHoldsWhatItsOptionsAskFor) {
   expect_as_planned(taken);
   EXPECT_THAT(taken.passes, testing::IsSupersetOf({"obscurance-line", "obscurance-blur", "obscurance-half",
                                                    "obscurance-upsample", "normals-from-depth"}));
+}
+
+/// What a plan leaves out, each with a reason and the key that would bring it back.
+std::set<std::string> left_out(const Scene& scene) {
+  std::set<std::string> keys;
+  for (const LeftOut& left : make_plan(build_world(scene), scene.methods).left_out) {
+    EXPECT_FALSE(left.what.empty() || left.because.empty() || left.key.empty()) << left.what;
+    keys.insert(left.what + "/" + left.key);
+  }
+  return keys;
+}
+
+TEST(Plan, SaysWhatItLeavesOutAndByWhichKeyItWouldComeBack) {
+  Scene scene = meadow_view();
+  EXPECT_THAT(left_out(scene), testing::UnorderedElementsAre("the near field/methods.near",
+                                                             "coloured light of the sky/environment.map"));
+  scene.methods.near = "obscurance-line";
+  EXPECT_THAT(left_out(scene), testing::UnorderedElementsAre("coloured light of the sky/environment.map"));
+  scene.methods.tree = scene.methods.crowns = "none";
+  EXPECT_THAT(left_out(scene), testing::IsSupersetOf({"crowns on their own leaves and wood/methods.tree",
+                                                      "crowns on everything else/methods.crowns"}));
+  scene.plants.clear();
+  scene.grass.clear();
+  scene.sky = Sky::sphere;
+  EXPECT_THAT(left_out(scene),
+              testing::IsSupersetOf({"crowns on their own leaves and wood/plants", "crowns on everything else/plants",
+                                     "posing and drawing of grass/grass", "grass on its own blades/grass",
+                                     "the horizon of open surfaces/sky", "a constant/methods.tree"}));
+}
+
+TEST(Plan, OfAConstantNamesEverybodyWhoReadsIt) {
+  Scene scene = meadow_view();
+  scene.methods.tree = scene.methods.grass = "ambient";
+  const Plan plan = make_plan(build_world(scene), scene.methods);
+  const auto ambient = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                    [](const PlannedPass& pass) { return pass.name == "ambient"; });
+  ASSERT_NE(ambient, plan.passes.end());
+  EXPECT_EQ(ambient->because, "ground under grass, plants with a crown, grass");
+  EXPECT_EQ(ambient->key, "grass, methods.tree, methods.grass");
+}
+
+/// Every frame takes these, whatever shades it: bodies are posed and drawn, planes resolved, terms combined.
+std::set<std::string> beyond_every_frame(std::set<std::string> programs) {
+  for (const char* program : {"pose_mesh", "rasterise", "resolve", "combine"}) programs.erase(program);
+  return programs;
+}
+
+TEST(Plan, OfASceneThatNeedsOneMethodBuildsOneProgramForIt) {
+  Scene plant = one_plant(small_species("birch"));
+  plant.image = {31, 23};
+  plant.has_terrain = false;
+  plant.sky = Sky::sphere;
+  const Taken tree = render_one(plant);
+  expect_as_planned(tree);
+  EXPECT_THAT(beyond_every_frame(tree.built), testing::ElementsAre("sphere_cap"));
+  EXPECT_THAT(beyond_every_frame(render_one(open_ground()).built), testing::ElementsAre("open_dome"));
 }
 
 TEST(Plan, RefusesMethodsThatDoNotExist) {
