@@ -14,21 +14,26 @@ kernel void shade_sphere_cap(global const float* position_x, global const float*
   const uint i = get_global_id(0);
   if (i >= items) return;
   const whole crown = signed_owner_column(owner_crown, owner_row(LOAD(owner, i), owners));
-  real v = REAL(1.0);
-  truth outside = (truth)(0);
-  for (truth left = (crown >= 0) & (crown < (whole)((int)crown_count)); ANY(left);) {
+  const truth mine = (crown >= 0) & (crown < (whole)((int)crown_count));
+  if (!ANY(mine)) {
+    STORE(REAL(1.0), visibility, i);
+    return;
+  }
+  real cx = REAL(0.0), cy = REAL(0.0), cz = REAL(0.0), radius = REAL(0.0), alpha_rho = REAL(0.0);
+  for (truth left = mine; ANY(left);) {
     const uint row = next_owner(TO_BITS(crown), left);
     const truth lanes = left & (crown == (whole)((int)row));
     left &= NOT(lanes);
     global const CrownRecord* shell = crowns + row;
-    const real x = LOAD(position_x, i) - shell->x, y = LOAD(position_y, i) - shell->y;
-    const real z = LOAD(position_z, i) - shell->z, radius = (real)(shell->radius);
-    v = PICK(
-        lanes,
-        sphere_cap(x, y, z, LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i), radius, (real)(shell->alpha_rho)),
-        v);
-    outside |= lanes & outside_sphere(x, y, z, radius);
+    cx = PICK(lanes, (real)(shell->x), cx);
+    cy = PICK(lanes, (real)(shell->y), cy);
+    cz = PICK(lanes, (real)(shell->z), cz);
+    radius = PICK(lanes, (real)(shell->radius), radius);
+    alpha_rho = PICK(lanes, (real)(shell->alpha_rho), alpha_rho);
   }
-  STORE(v, visibility, i);
+  const real x = LOAD(position_x, i) - cx, y = LOAD(position_y, i) - cy, z = LOAD(position_z, i) - cz;
+  const real v = sphere_cap(x, y, z, LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i), radius, alpha_rho);
+  const truth outside = mine & outside_sphere(x, y, z, radius);
+  STORE(PICK(mine, v, REAL(1.0)), visibility, i);
   if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
 }

@@ -53,7 +53,7 @@ void SolidAnglePass::run(const FragmentPlanes& planes, const OwnerTables& owners
                owners.group, owners.rows(), spheres, count, error_.each, error_.total, row_length, units, tiles, tiles_,
                lists_, slots);
   const std::uint32_t items = lanes_.items(planes);
-  shade_.launch(items, lanes_.local_size(1), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
+  shade_.launch(items, lanes_.local_size(), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
                 planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(), spheres, count, tiles_,
                 lists_, slots, row_length, items, visibility, planes.validity);
 }

@@ -64,15 +64,15 @@ SHARED real unit_solid_angle_exact(real s, real square) {
   return as_share(share);
 }
 
-/// Where the fragment is near the sphere or within it: the closed form.
-SHARED real near_solid_angle_cosine(real height, real square) {
-  const real distance = at_least(sqrt(square), REAL(1e-12));
-  const real s = at_most(at_least(height, -distance), distance), r = at_most(REAL(1.0), distance);
-  const real inverse = REAL(1.0) / distance, ratio = r * inverse, whole = ratio * ratio * (s * inverse);
-  const real cosine = leg(distance, r) * inverse, k = leg(r, s), flat = k * inverse;
-  const real lean = signed_arc_tangent(s * cosine, k), edge = arc_tangent(flat, cosine);
-  const real cut = fma(whole, fma(lean, INVERSE_PI, REAL(0.5)), INVERSE_PI * fma(-flat, cosine, edge));
-  return as_share(share_inside(PICK(fabs(s) < r, cut, whole), distance));
+/// Where the plane cuts the sphere and the fragment is near it, or within it: the closed form. `inverse`: 1/d.
+SHARED real near_cut_cosine(real height, real square, real inverse) {
+  const real distance = square * inverse, s = at_most(at_least(height, -distance), distance);
+  const real t = sqrt(at_least(square - REAL(1.0), REAL(0.0))), k = leg(REAL(1.0), s);
+  const real p = inverse * inverse, whole = p * inverse * s;
+  const real lean = signed_arc_tangent(s * t, distance * k), edge = arc_tangent(k, t);
+  const real cut = fma(whole, fma(lean, INVERSE_PI, REAL(0.5)), INVERSE_PI * fma(-k * t, p, edge));
+  // At d = 1 it is (1 + s)/2; from there it goes linearly to 1 at the centre.
+  return PICK(square < REAL(1.0), fma(REAL(0.5), s - distance, REAL(1.0)), cut);
 }
 
 // Where the plane cuts the sphere, |s| < 1, the closed form is s/(2 d^3) plus d^-3 times a part even in s; least-maximum
@@ -97,16 +97,17 @@ SHARED real close_cut_cosine(real s, real p, real cube) {
   return cube * fma(REAL(0.5), s, fma(fma(second, p, first), p, zeroth));
 }
 
-/// Negative where the sphere is below the plane.
-SHARED real close_share_cosine(real s, real square) {
-  const real inverse = REAL(1.0) / sqrt(square), p = inverse * inverse, cube = p * inverse;
+/// Negative where the sphere is below the plane. `inverse`: 1/d.
+SHARED real close_share_cosine(real s, real inverse) {
+  const real p = inverse * inverse, cube = p * inverse;
   return PICK(fabs(s) < REAL(1.0), close_cut_cosine(s, p, cube), s * cube);
 }
 
 SHARED real unit_solid_angle_cosine(real s, real square) {
-  real share = close_share_cosine(s, square);
-  const truth near = square < REAL(2.25);
-  if (ANY(near)) share = PICK(near, near_solid_angle_cosine(s, square), share);
+  const real inverse = REAL(1.0) / sqrt(at_least(square, REAL(1e-24)));
+  real share = close_share_cosine(s, inverse);
+  const truth near = (square < REAL(2.25)) & (fabs(s) < REAL(1.0));
+  if (ANY(near)) share = PICK(near, near_cut_cosine(s, square, inverse), share);
   return at_least(share, REAL(0.0));
 }
 
@@ -122,7 +123,7 @@ SHARED real distant_unit_solid_angle_cosine(real s, real square) {
   return at_least(PICK(fabs(s) < REAL(1.0), distant_cut_cosine(s, cube), s * cube), REAL(0.0));
 }
 SHARED real close_unit_solid_angle_cosine(real s, real square) {
-  return at_least(close_share_cosine(s, square), REAL(0.0));
+  return at_least(close_share_cosine(s, REAL(1.0) / sqrt(square)), REAL(0.0));
 }
 
 /// Height of a sphere's centre (x, y, z) above the tangent plane of a fragment of normal (a, b, c).
