@@ -7,8 +7,8 @@
 #include "kernels/shared/validity.h"
 
 /// Cell along one axis of `count` cells; any number, NaN too, gives one of them.
-static inline real cell_of(real place, uint count) {
-  return at_least(at_most(floor(place), (real)((float)count - 1.0f)), REAL(0.0));
+static inline real cell_of(real place, real count) {
+  return at_least(at_most(floor(place), count - REAL(1.0)), REAL(0.0));
 }
 
 /// Place within the cell, -1 to 1.
@@ -16,9 +16,13 @@ static inline real within_cell(real place, real cell) {
   return at_least(at_most(fma(REAL(2.0), place - cell, REAL(-1.0)), REAL(1.0)), REAL(-1.0));
 }
 
-#define NOT_WITHIN(place, count) NOT(((place) >= REAL(-0.001)) & ((place) <= (real)((float)(count) + 0.001f)))
+static inline truth beyond(real place, real count) {
+  return NOT((place >= REAL(-0.001)) & (place <= count + REAL(0.001)));
+}
+
 /// Signed byte `number` % 4 of the word that holds it.
 #define COEFFICIENT(number) TO_REAL(AS_WHOLE(words[(number) / 4] << (24 - 8 * ((number) % 4))) >> 24)
+#define TAKE(member, from) member = PICK(lanes, from, member)
 
 kernel void shade_crown_field(global const float* rest_x, global const float* rest_y, global const float* rest_z,
                               global const float* normal_x, global const float* normal_y, global const float* normal_z,
@@ -27,30 +31,40 @@ kernel void shade_crown_field(global const float* rest_x, global const float* re
                               uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const bits owners_here = owner_row(LOAD(owner, i), owners);
-  real v = REAL(1.0);
-  truth outside = (truth)(0);
-  for (truth left = ALL_LANES; ANY(left);) {
-    const uint row = next_owner(owners_here, left);
-    const truth lanes = left & (owners_here == (bits)(row));
-    left &= NOT(lanes);
-    const int number = owner_field[row];
-    if (number < 0 || number >= (int)field_count) continue;
-    const CrownFieldGrid field = fields[number];
-    const real px = (LOAD(rest_x, i) - field.low_x) * field.cells_per_metre;
-    const real py = (LOAD(rest_y, i) - field.low_y) * field.cells_per_metre;
-    const real pz = (LOAD(rest_z, i) - field.low_z) * field.cells_per_metre;
-    const real cx = cell_of(px, field.columns), cy = cell_of(py, field.rows), cz = cell_of(pz, field.layers);
-    const bits column = TO_BITS(cx), line = TO_BITS(cz) * field.rows + TO_BITS(cy);
-    const bits first = ((bits)(field.first_cell) + line * field.columns + column) * FIELD_WORDS;
-    const bits words[FIELD_WORDS] = {GATHER(bits, cells, first, ), GATHER(bits, cells, first + 1, ),
-                                     GATHER(bits, cells, first + 2, )};
-    const real nx = LOAD(normal_x, i), ny = LOAD(normal_y, i), nz = LOAD(normal_z, i);
-    const real value = FIELD_VALUE(COEFFICIENT, nx, ny, nz, within_cell(px, cx), within_cell(py, cy),
-                                   within_cell(pz, cz));
-    v = PICK(lanes, as_visibility(value * FIELD_STEP), v);
-    outside |= lanes & (NOT_WITHIN(px, field.columns) | NOT_WITHIN(py, field.rows) | NOT_WITHIN(pz, field.layers));
+  const whole number = signed_owner_column(owner_field, owner_row(LOAD(owner, i), owners));
+  const truth mine = (number >= 0) & (number < (whole)((int)field_count));
+  if (!ANY(mine)) {
+    STORE(REAL(1.0), visibility, i);
+    return;
   }
-  STORE(v, visibility, i);
+  real low_x = REAL(0.0), low_y = REAL(0.0), low_z = REAL(0.0), scale = REAL(0.0);
+  bits columns = (bits)(1u), rows = (bits)(1u), layers = (bits)(1u), first_cell = (bits)(0u);
+  for (truth left = mine; ANY(left);) {
+    const uint row = next_owner(TO_BITS(number), left);
+    const truth lanes = left & (number == (whole)((int)row));
+    left &= NOT(lanes);
+    const CrownFieldGrid field = fields[row];
+    TAKE(low_x, (real)(field.low_x));
+    TAKE(low_y, (real)(field.low_y));
+    TAKE(low_z, (real)(field.low_z));
+    TAKE(scale, (real)(field.cells_per_metre));
+    TAKE(columns, (bits)(field.columns));
+    TAKE(rows, (bits)(field.rows));
+    TAKE(layers, (bits)(field.layers));
+    TAKE(first_cell, (bits)(field.first_cell));
+  }
+  const real px = (LOAD(rest_x, i) - low_x) * scale, py = (LOAD(rest_y, i) - low_y) * scale;
+  const real pz = (LOAD(rest_z, i) - low_z) * scale;
+  const real across = TO_REAL(columns), along = TO_REAL(rows), up = TO_REAL(layers);
+  const real cx = cell_of(px, across), cy = cell_of(py, along), cz = cell_of(pz, up);
+  const bits line = TO_BITS(cz) * rows + TO_BITS(cy);
+  const bits first = (first_cell + line * columns + TO_BITS(cx)) * FIELD_WORDS;
+  const bits words[FIELD_WORDS] = {GATHER(bits, cells, first, ), GATHER(bits, cells, first + 1, ),
+                                   GATHER(bits, cells, first + 2, )};
+  const real nx = LOAD(normal_x, i), ny = LOAD(normal_y, i), nz = LOAD(normal_z, i);
+  const real value =
+      FIELD_VALUE(COEFFICIENT, nx, ny, nz, within_cell(px, cx), within_cell(py, cy), within_cell(pz, cz));
+  STORE(PICK(mine, as_visibility(value * FIELD_STEP), REAL(1.0)), visibility, i);
+  const truth outside = mine & (beyond(px, across) | beyond(py, along) | beyond(pz, up));
   if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);
 }

@@ -5,10 +5,10 @@
 #include "kernels/shared/grass_transmittance.h"
 #include "kernels/shared/owner_table.h"
 
-// Where a fragment lies between four columns. Corners: low left, low right, high left, high right.
+// Where a fragment lies between four columns of nodes: low left, low right, high left, high right.
 typedef struct {
-  bits corner[4];  // column numbers, always within the grid
-  real share[4];   // bilinear weights
+  bits column, row;  // of the low left one, always within the grid
+  real right, high;  // shares of the right and of the high pair
   truth within;
 } Columns;
 
@@ -19,53 +19,65 @@ static inline Columns columns_around(const GrassLayerGrid grid, real x, real y) 
   Columns at;
   at.within = (across >= REAL(0.0)) & (across <= last_column) & (up >= REAL(0.0)) & (up <= last_row);
   // The last pair of columns ends the grid: a place on its edge belongs to the pair's right.
-  const real column = at_least(at_most(across, last_column), REAL(0.0)), row = at_least(at_most(up, last_row), REAL(0.0));
+  const real column = at_least(at_most(across, last_column), REAL(0.0)),
+             row = at_least(at_most(up, last_row), REAL(0.0));
   const real left = at_least(at_most(floor(column), last_column - REAL(1.0)), REAL(0.0));
   const real low = at_least(at_most(floor(row), last_row - REAL(1.0)), REAL(0.0));
-  const real fx = column - left, fy = row - low;
-  const bits first = TO_BITS(low) * (bits)(grid.columns) + TO_BITS(left);
-  at.corner[0] = first;
-  at.corner[1] = first + (bits)(1u);
-  at.corner[2] = first + (bits)(grid.columns);
-  at.corner[3] = first + (bits)(grid.columns + 1u);
-  const real both = fx * fy;
-  at.share[0] = REAL(1.0) - fx - fy + both;
-  at.share[1] = fx - both;
-  at.share[2] = fy - both;
-  at.share[3] = both;
+  at.column = TO_BITS(left);
+  at.row = TO_BITS(low);
+  at.right = column - left;
+  at.high = row - low;
   return at;
 }
 
-// The lights of W fragments, one after the other: a node and the one above it are one load.
+// Height of the ground under W fragments, camera-relative m.
+static inline real ground_under(const GrassLayerGrid grid, const Columns columns, global const float* ground) {
+  uint first[W];
+  float right[W], high[W], height[W];
+  STORE(columns.row * (bits)(grid.columns) + columns.column, first, 0);
+  STORE(columns.right, right, 0);
+  STORE(columns.high, high, 0);
+  for (uint lane = 0; lane < W; ++lane) {
+    const float2 low_pair = vload2(0, ground + first[lane]), high_pair = vload2(0, ground + first[lane] + grid.columns);
+    const float2 pair = fma((float2)(high[lane]), high_pair - low_pair, low_pair);
+    height[lane] = fma(right[lane], pair.y - pair.x, pair.x);
+  }
+  return LOAD(height, 0) + (real)(grid.datum);
+}
+
+// The lights of W fragments, one after the other. A record holds two neighbouring nodes of a row (left, right), and the
+// record of the level above follows it: four nodes are one load.
 static inline GrassLight light_at(const GrassLayerGrid grid, const Columns columns, real levels,
                                   global const ushort* nodes, global const ushort* below) {
   const real level = at_least(at_most(floor(levels), (real)((float)grid.levels - 2.0f)), REAL(0.0));
-  const real up = levels - level;
-  const bits first_level = TO_BITS(level);
- private
-  uint node[4][W];
- private
-  float share[4][W], above_share[W], light[5][W];
-  for (int k = 0; k < 4; ++k) {
-    STORE(columns.corner[k] * (bits)(grid.levels) + first_level, node[k], 0);
-    STORE(columns.share[k], share[k], 0);
-  }
-  STORE(up, above_share, 0);
+  const uint row_records = (grid.columns - 1) * grid.levels;
+  uint record[W];
+  float right[W], high[W], above[W], light[5][W];
+  STORE((columns.row * (bits)(grid.columns - 1) + columns.column) * (bits)(grid.levels) + TO_BITS(level), record, 0);
+  STORE(columns.right, right, 0);
+  STORE(columns.high, high, 0);
+  STORE(levels - level, above, 0);
   for (uint lane = 0; lane < W; ++lane) {
-    float8 pair = (float8)(0.0f);
-    float2 low_pair = (float2)(0.0f);
-    for (int k = 0; k < 4; ++k) {
-      pair = fma(convert_float8(vload8(0, nodes + 4 * node[k][lane])), (float8)(share[k][lane]), pair);
-#ifdef BELOW
-      low_pair = fma(convert_float2(vload2(0, below + node[k][lane])), (float2)(share[k][lane]), low_pair);
-#endif
-    }
-    const float4 mixed = fma(pair.hi - pair.lo, (float4)(above_share[lane]), pair.lo);
+    global const ushort* at = nodes + 8 * record[lane];
+    const float16 low_row = convert_float16(vload16(0, at)),
+                  high_row = convert_float16(vload16(0, at + 8 * row_records));
+    const float16 four = fma((float16)(high[lane]), high_row - low_row, low_row);
+    const float8 pair = fma((float8)(above[lane]), four.hi - four.lo, four.lo);
+    const float4 mixed = fma((float4)(right[lane]), pair.hi - pair.lo, pair.lo);
     light[0][lane] = mixed.x;
     light[1][lane] = mixed.y;
     light[2][lane] = mixed.z;
     light[3][lane] = mixed.w;
-    light[4][lane] = fma(low_pair.y - low_pair.x, above_share[lane], low_pair.x);
+#ifdef BELOW
+    global const ushort* under = below + 2 * record[lane];
+    const float4 low_below = convert_float4(vload4(0, under));
+    const float4 high_below = convert_float4(vload4(0, under + 2 * row_records));
+    const float4 four_below = fma((float4)(high[lane]), high_below - low_below, low_below);
+    const float2 pair_below = fma((float2)(above[lane]), four_below.hi - four_below.lo, four_below.lo);
+    light[4][lane] = fma(right[lane], pair_below.y - pair_below.x, pair_below.x);
+#else
+    light[4][lane] = 0;
+#endif
   }
   const real low = (real)(grid.low), step = (real)(grid.step);
   GrassLight found;
@@ -77,19 +89,11 @@ static inline GrassLight light_at(const GrassLayerGrid grid, const Columns colum
   return found;
 }
 
-// Height of the ground under W fragments, camera-relative m.
-static inline real ground_under(const GrassLayerGrid grid, const Columns columns, global const float* ground) {
-  real z = (real)(grid.datum);
-  for (int k = 0; k < 4; ++k) z = fma(columns.share[k], GATHER(real, ground, columns.corner[k], ), z);
-  return z;
-}
-
 kernel void shade_grass_transmittance(global const float* position_x, global const float* position_y,
                                       global const float* position_z, global const float* normal_x,
                                       global const float* normal_y, global const float* normal_z,
-                                      const GrassLayerGrid grid, global const float* ground,
-                                      global const ushort* nodes, global const ushort* below, uint items,
-                                      global float* visibility) {
+                                      const GrassLayerGrid grid, global const float* ground, global const ushort* nodes,
+                                      global const ushort* below, uint items, global float* visibility) {
   const uint i = get_global_id(0);
   if (i >= items) return;
   const Columns columns = columns_around(grid, LOAD(position_x, i), LOAD(position_y, i));
@@ -100,8 +104,7 @@ kernel void shade_grass_transmittance(global const float* position_x, global con
     const real levels = height * (real)(grid.levels_per_metre);
     const truth within = columns.within & (levels < top);
     if (ANY(within)) {
-      const GrassLight light =
-          light_at(grid, columns, at_least(at_most(levels, top), REAL(0.0)), nodes, below);
+      const GrassLight light = light_at(grid, columns, at_least(at_most(levels, top), REAL(0.0)), nodes, below);
       const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
 #ifdef BELOW
       v = PICK(within, as_visibility(grass_light(light, a, b, c)), v);

@@ -3,8 +3,11 @@
 // One work-group per chunk; one work-item projects and culls W triangles in vector lanes, then draws those that are
 // left.
 #pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/lane_bits.h"
 #include "kernels/shared/project_triangles.h"
+#include "kernels/shared/scan_blocks.h"
 #include "kernels/shared/scan_convert.h"
+#include "kernels/shared/single_centre.h"
 #include "kernels/shared/triangle_corners.h"
 
 // One corner of W triangles as the scalar loop reads it.
@@ -27,19 +30,61 @@ static inline ScreenCorner lane_corner(const CornerLanes* lanes, int lane) {
   return corner;
 }
 
-// `marks`: coverage per lane. `first`: id of lane 0.
+// `counts`: lanes to draw. `first`: id of lane 0.
+static inline void draw_single_centres(const CameraView* camera, SingleCentre one, uint first,
+                                       global VisibleTriangle* pixels) {
+  uint left = lane_bits(one.covered);
+  if (left == 0) return;
+  const size_t pixel_count = (size_t)camera->width * camera->height;
+  int pixel[W];
+  float depth[W];
+  STORE(one.pixel, pixel, 0);
+  STORE(one.depth, depth, 0);
+  while (left != 0) {
+    const uint lane = next_lane(&left);
+    offer_fragment(pixels, pixel_count, pixel[lane], depth[lane], first + lane);
+  }
+}
+
+static inline void draw_triangle(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c,
+                                 float nearest, uint triangle, global VisibleTriangle* pixels) {
+  const int4 box = pixel_box(camera, a, b, c);
+  if (box.x > box.z || box.y > box.w) return;
+  const int across =
+      max(max(a.x, max(b.x, c.x)) - min(a.x, min(b.x, c.x)), max(a.y, max(b.y, c.y)) - min(a.y, min(b.y, c.y)));
+  if (across <= LARGEST_SCANNED * SUBPIXELS)
+    scan_blocks(camera, a, b, c, box, triangle, pixels);
+  else
+    scan_convert(camera, a, b, c, nearest, triangle, pixels);
+}
+
 static inline void draw_lanes(const CameraView* camera, ProjectedCorners a, ProjectedCorners b, ProjectedCorners c,
-                              const int* marks, uint first, global VisibleTriangle* pixels) {
+                              truth counts, uint first, global VisibleTriangle* pixels) {
+  uint left = lane_bits(counts);
+  if (left == 0) return;
   CornerLanes as, bs, cs;
   float nearest[W];
   STORE(min(a.z, min(b.z, c.z)) * (real)(INTERPOLATION_SLACK), nearest, 0);
   store_lanes(a, &as);
   store_lanes(b, &bs);
   store_lanes(c, &cs);
-  for (int lane = 0; lane < W; ++lane)
-    if (marks[lane] == 1)
-      scan_convert(camera, lane_corner(&as, lane), lane_corner(&bs, lane), lane_corner(&cs, lane), nearest[lane],
-                   first + lane, pixels);
+  while (left != 0) {
+    const uint lane = next_lane(&left);
+    draw_triangle(camera, lane_corner(&as, lane), lane_corner(&bs, lane), lane_corner(&cs, lane), nearest[lane],
+                  first + lane, pixels);
+  }
+}
+
+// Draws all that need no clipping; the others are left. `covers`: coverage per lane.
+static inline truth draw_unclipped(const CameraView* camera, ProjectedCorners a, ProjectedCorners b, ProjectedCorners c,
+                                   whole covers, uint first, global VisibleTriangle* pixels) {
+  const truth unclipped = covers == 1;
+  if (ANY(unclipped)) {
+    const SingleCentre one = single_centre(camera, a, b, c, unclipped);
+    draw_single_centres(camera, one, first, pixels);
+    draw_lanes(camera, a, b, c, unclipped & NOT(one.single), first, pixels);
+  }
+  return covers == 2;
 }
 
 kernel void clear_visible(global VisibleTriangle* pixels, uint count) {
@@ -57,13 +102,11 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
   const ProjectedCorners a = project_corners(&camera, gather_posed(posed, first, index_a + t));
   const ProjectedCorners b = project_corners(&camera, gather_posed(posed, first, index_b + t));
   const ProjectedCorners c = project_corners(&camera, gather_posed(posed, first, index_c + t));
-  const whole covered = coverage(&camera, a, b, c);
-  int marks[W];
-  STORE(covered, marks, 0);
-  draw_lanes(&camera, a, b, c, marks, id, pixels);
-  for (uint i = 0; i < W; ++i)
-    if (marks[i] == 2)
-      clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), posed, id + i, pixels);
+  const truth clipped = draw_unclipped(&camera, a, b, c, coverage(&camera, a, b, c), id, pixels);
+  for (uint left = lane_bits(clipped); left != 0;) {
+    const uint i = next_lane(&left);
+    clip_and_scan_convert(&camera, mesh_corners(chunk, lane + i, index_a, index_b, index_c), posed, id + i, pixels);
+  }
 }
 
 kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk, global const float4* posed,
@@ -74,10 +117,9 @@ kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk
   const ProjectedCorners a = project_corners(&camera, load_posed(posed, corners.a));
   const ProjectedCorners b = project_corners(&camera, load_posed(posed, corners.b));
   const ProjectedCorners c = project_corners(&camera, load_posed(posed, corners.c));
-  const whole covered = coverage(&camera, a, b, c);
-  int marks[W];
-  STORE(covered, marks, 0);
-  draw_lanes(&camera, a, b, c, marks, id, pixels);
-  for (uint i = 0; i < W; ++i)
-    if (marks[i] == 2) clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), posed, id + i, pixels);
+  const truth clipped = draw_unclipped(&camera, a, b, c, coverage(&camera, a, b, c), id, pixels);
+  for (uint left = lane_bits(clipped); left != 0;) {
+    const uint i = next_lane(&left);
+    clip_and_scan_convert(&camera, grass_corners(chunk, lane + i), posed, id + i, pixels);
+  }
 }

@@ -29,7 +29,7 @@ void GridPass::run(const FragmentPlanes& planes, const OwnerTables& owners, cons
   tiles_.run(planes, grids);
   const std::uint32_t items = lanes_.items(planes);
   const auto row_length = static_cast<std::uint32_t>(std::max<std::size_t>(planes.row_length, UNIT));
-  kernel_.launch(items, lanes_.local_size(1), planes.position_x, planes.position_y, planes.position_z, planes.owner,
+  kernel_.launch(items, lanes_.local_size(), planes.position_x, planes.position_y, planes.position_z, planes.owner,
                  owners.group, owners.rows(), grids.records(), grids.count(), grids.samples(), tiles_.listed(),
                  tiles_.lists(), tiles_.capacity(), row_length, items, visibility, planes.validity);
 }

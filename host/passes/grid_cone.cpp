@@ -36,10 +36,10 @@ void GridConePass::run(const FragmentPlanes& planes, const OwnerTables& owners, 
   const std::uint32_t items = lanes_.items(planes);
   const auto row_length = static_cast<std::uint32_t>(std::max<std::size_t>(planes.row_length, UNIT));
   const auto launch = [&](const auto&... more) {
-    kernel_.launch(items, lanes_.local_size(1), planes.position_x, planes.position_y, planes.position_z,
-                   planes.normal_x, planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(),
-                   grids.records(), grids.count(), grids.samples(), tiles_.listed(), tiles_.lists(), tiles_.capacity(),
-                   row_length, items, visibility, planes.validity, more...);
+    kernel_.launch(items, lanes_.local_size(), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
+                   planes.normal_y, planes.normal_z, planes.owner, owners.group, owners.rows(), grids.records(),
+                   grids.count(), grids.samples(), tiles_.listed(), tiles_.lists(), tiles_.capacity(), row_length,
+                   items, visibility, planes.validity, more...);
   };
   if (cones)
     launch(cones->axis_x, cones->axis_y, cones->axis_z, cones->aperture, cones->share);

@@ -15,7 +15,9 @@ std::string options(const ResolvedPlanes& write, bool wide_atomics) {
 }  // namespace
 
 ResolvePass::ResolvePass(Device& device, const ResolvedPlanes& write, bool wide_atomics)
-    : write_(write), kernel_(device, "resolve", "resolve", "resolve", options(write, wide_atomics)) {}
+    : write_(write),
+      lanes_(static_cast<std::uint32_t>(device.info().vector_width)),
+      kernel_(device, "resolve", "resolve", "resolve", options(write, wide_atomics)) {}
 
 void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& triangles, const PosedVertices& posed,
                       const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes) {
@@ -24,7 +26,7 @@ void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& tri
   require_size("resolve", "visible", visible.words.size(), 2 * fragments);
   const auto padded = static_cast<std::uint32_t>(planes.padded_fragments);
   const auto launch = [&](const auto&... more) {
-    kernel_.launch(padded, 64, visible.words, triangles.chunks, triangles.mesh_chunks, triangles.index_a,
+    kernel_.launch(padded / lanes_, 64, visible.words, triangles.chunks, triangles.mesh_chunks, triangles.index_a,
                    triangles.index_b, triangles.index_c, posed.points, camera, padded, planes.position_x,
                    planes.position_y, planes.position_z, planes.normal_x, planes.normal_y, planes.normal_z,
                    planes.depth, planes.owner, planes.validity, more...);

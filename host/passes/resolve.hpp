@@ -35,6 +35,7 @@ class ResolvePass {
 
  private:
   ResolvedPlanes write_;
+  std::uint32_t lanes_;  // fragments per work-item
   Kernel kernel_;
 };
 

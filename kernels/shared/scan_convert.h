@@ -18,14 +18,19 @@ typedef struct {
 static inline int first_centre(int fixed) { return (fixed + SUBPIXELS / 2 - 1) >> 8; }
 static inline int last_centre(int fixed) { return (fixed - SUBPIXELS / 2) >> 8; }
 
+// The pixels whose centres may lie in the triangle, first and last column and row: left, top, right, bottom.
+static inline int4 pixel_box(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c) {
+  return (int4)(max(first_centre(min(a.x, min(b.x, c.x))), 0), max(first_centre(min(a.y, min(b.y, c.y))), 0),
+                min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1),
+                min(last_centre(max(a.y, max(b.y, c.y))), camera->height - 1));
+}
+
 // `nearest`: no part of the triangle is nearer, m. Fragments that the buffer hides already are not worth their maths;
 // in foliage that is most of them.
 static inline void scan_convert(const CameraView* camera, ScreenCorner a, ScreenCorner b, ScreenCorner c, float nearest,
                                 uint triangle, global VisibleTriangle* pixels) {
-  const int left = max(first_centre(min(a.x, min(b.x, c.x))), 0);
-  const int right = min(last_centre(max(a.x, max(b.x, c.x))), camera->width - 1);
-  const int top = max(first_centre(min(a.y, min(b.y, c.y))), 0);
-  const int bottom = min(last_centre(max(a.y, max(b.y, c.y))), camera->height - 1);
+  const int4 box = pixel_box(camera, a, b, c);
+  const int left = box.x, top = box.y, right = box.z, bottom = box.w;
   if (left > right || top > bottom) return;
   const size_t first_pixel = (size_t)top * camera->width + left;
   if (left == right && top == bottom && hidden(pixels, first_pixel, nearest)) return;
