@@ -45,36 +45,37 @@ static inline real ground_under(const GrassLayerGrid grid, const Columns columns
   return LOAD(height, 0) + (real)(grid.datum);
 }
 
-// The lights of W fragments, one after the other. A record holds two neighbouring nodes of a row (left, right), and the
-// record of the level above follows it: four nodes are one load.
+// The lights of W fragments, one after the other: a node and the one above it are one load.
 static inline GrassLight light_at(const GrassLayerGrid grid, const Columns columns, real levels,
                                   global const ushort* nodes, global const ushort* below) {
   const real level = at_least(at_most(floor(levels), (real)((float)grid.levels - 2.0f)), REAL(0.0));
-  const uint row_records = (grid.columns - 1) * grid.levels;
-  uint record[W];
+  const uint right_node = grid.levels, high_node = grid.columns * grid.levels;  // from the low left one
+  uint node[W];
   float right[W], high[W], above[W], light[5][W];
-  STORE((columns.row * (bits)(grid.columns - 1) + columns.column) * (bits)(grid.levels) + TO_BITS(level), record, 0);
+  STORE((columns.row * (bits)(grid.columns) + columns.column) * (bits)(grid.levels) + TO_BITS(level), node, 0);
   STORE(columns.right, right, 0);
   STORE(columns.high, high, 0);
   STORE(levels - level, above, 0);
   for (uint lane = 0; lane < W; ++lane) {
-    global const ushort* at = nodes + 8 * record[lane];
-    const float16 low_row = convert_float16(vload16(0, at)),
-                  high_row = convert_float16(vload16(0, at + 8 * row_records));
-    const float16 four = fma((float16)(high[lane]), high_row - low_row, low_row);
-    const float8 pair = fma((float8)(above[lane]), four.hi - four.lo, four.lo);
-    const float4 mixed = fma((float4)(right[lane]), pair.hi - pair.lo, pair.lo);
+    global const ushort* low_left = nodes + 4 * node[lane];
+    global const ushort* high_left = low_left + 4 * high_node;
+    const float16 low = convert_float16((ushort16)(vload8(0, low_left), vload8(0, low_left + 4 * right_node)));
+    const float16 top = convert_float16((ushort16)(vload8(0, high_left), vload8(0, high_left + 4 * right_node)));
+    const float16 four = fma((float16)(high[lane]), top - low, low);
+    const float8 pair = fma((float8)(right[lane]), four.hi - four.lo, four.lo);
+    const float4 mixed = fma((float4)(above[lane]), pair.hi - pair.lo, pair.lo);
     light[0][lane] = mixed.x;
     light[1][lane] = mixed.y;
     light[2][lane] = mixed.z;
     light[3][lane] = mixed.w;
 #ifdef BELOW
-    global const ushort* under = below + 2 * record[lane];
-    const float4 low_below = convert_float4(vload4(0, under));
-    const float4 high_below = convert_float4(vload4(0, under + 2 * row_records));
+    global const ushort* under = below + node[lane];
+    const float4 low_below = convert_float4((ushort4)(vload2(0, under), vload2(0, under + right_node)));
+    const float4 high_below =
+        convert_float4((ushort4)(vload2(0, under + high_node), vload2(0, under + high_node + right_node)));
     const float4 four_below = fma((float4)(high[lane]), high_below - low_below, low_below);
-    const float2 pair_below = fma((float2)(above[lane]), four_below.hi - four_below.lo, four_below.lo);
-    light[4][lane] = fma(right[lane], pair_below.y - pair_below.x, pair_below.x);
+    const float2 pair_below = fma((float2)(right[lane]), four_below.hi - four_below.lo, four_below.lo);
+    light[4][lane] = fma(above[lane], pair_below.y - pair_below.x, pair_below.x);
 #else
     light[4][lane] = 0;
 #endif

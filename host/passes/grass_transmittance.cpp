@@ -1,7 +1,6 @@
 #include "host/passes/grass_transmittance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,32 +15,20 @@ std::uint16_t number(double value, double low, double high) {
   return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * steps));
 }
 
-/// What `numbers_of(light)` gives for every node, each time the nodes of column c and c + 1 of a row side by side,
-/// level by level: what a fragment between columns and levels needs of a row stands in one piece.
-template <typename NumbersOf>
-std::vector<std::uint16_t> side_by_side(const GrassLayer& layer, const NumbersOf& numbers_of) {
+std::vector<std::uint16_t> node_numbers(const GrassLayer& layer) {
   std::vector<std::uint16_t> numbers;
-  for (std::size_t row = 0; row < layer.rows; ++row)
-    for (std::size_t column = 0; column + 1 < layer.columns; ++column)
-      for (std::size_t level = 0; level < layer.levels; ++level)
-        for (const std::size_t side : {column, column + 1}) {
-          const auto more = numbers_of(layer.light[(row * layer.columns + side) * layer.levels + level]);
-          numbers.insert(numbers.end(), more.begin(), more.end());
-        }
+  numbers.reserve(4 * layer.light.size());
+  for (const LayerLight& light : layer.light)
+    for (const float value : {light.above, light.zenith, light.x, light.y})
+      numbers.push_back(number(double(value), layer_low, layer_high));
   return numbers;
 }
 
-std::vector<std::uint16_t> node_numbers(const GrassLayer& layer) {
-  return side_by_side(layer, [](const LayerLight& light) {
-    const auto of = [](float value) { return number(double(value), layer_low, layer_high); };
-    return std::array{of(light.above), of(light.zenith), of(light.x), of(light.y)};
-  });
-}
-
 std::vector<std::uint16_t> below_numbers(const GrassLayer& layer, bool open_below) {
-  if (!open_below) return {};
-  return side_by_side(layer,
-                      [](const LayerLight& light) { return std::array{number(double(light.below), 0, layer_high)}; });
+  std::vector<std::uint16_t> numbers;
+  for (std::size_t i = 0; open_below && i < layer.light.size(); ++i)
+    numbers.push_back(number(double(layer.light[i].below), 0, layer_high));
+  return numbers;
 }
 
 template <typename T>
