@@ -3,6 +3,7 @@
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/ground_cover.h"
+#include "kernels/shared/lane_bits.h"
 #include "kernels/shared/limits.h"
 #include "kernels/shared/owner_table.h"
 
@@ -18,11 +19,21 @@ kernel void shade_ambient(global const float* position_x, global const float* po
   const truth is_terrain = surface == (bits)(terrain_class);
   if (ANY(is_terrain)) {
     const GroundCoverCell cell = ground_cover_cell(grid, LOAD(position_x, i), LOAD(position_y, i));
-    const real low_left = GATHER(real, ground, cell.low_left, ), low_right = GATHER(real, ground, cell.low_right, );
-    const real high_left = GATHER(real, ground, cell.high_left, ), high_right = GATHER(real, ground, cell.high_right, );
-    const real low = fma(cell.right, low_right - low_left, low_left);
-    const real high = fma(cell.right, high_right - high_left, high_left);
-    v = PICK(is_terrain & cell.within, fma(cell.up, high - low, low), v);
+    uint corner[W], across[W], up_row[W];
+    float right[W], up[W];
+    STORE(cell.low_left, corner, 0);
+    STORE(cell.low_right - cell.low_left, across, 0);
+    STORE(cell.high_left - cell.low_left, up_row, 0);
+    STORE(cell.right, right, 0);
+    STORE(cell.up, up, 0);
+    for (uint left = lane_bits(is_terrain & cell.within); left != 0;) {
+      const uint lane = next_lane(&left);
+      global const float* low_pair = ground + corner[lane];
+      global const float* high_pair = low_pair + up_row[lane];
+      const float low = fma(right[lane], low_pair[across[lane]] - low_pair[0], low_pair[0]);
+      const float high = fma(right[lane], high_pair[across[lane]] - high_pair[0], high_pair[0]);
+      v = PICK((whole)((int)lane) == LANE_NUMBERS, (real)(fma(up[lane], high - low, low)), v);
+    }
   }
   STORE(as_visibility(v), visibility, i);
 }

@@ -37,7 +37,7 @@ SHARED GroundCoverCell ground_cover_cell(const GroundCoverGrid grid, real x, rea
   cell.within = (across >= REAL(0.0)) & (across <= columns) & (up >= REAL(0.0)) & (up <= rows);
   const real column = at_least(at_most(across - REAL(0.5), columns - REAL(1.0)), REAL(0.0));
   const real row = at_least(at_most(up - REAL(0.5), rows - REAL(1.0)), REAL(0.0));
-  const real left = floor(column), low = floor(row);
+  const real left = TO_REAL(TO_WHOLE(column)), low = TO_REAL(TO_WHOLE(row));
   cell.right = column - left;
   cell.up = row - low;
   const bits left_column = TO_BITS(left), low_row = TO_BITS(low);
