@@ -23,12 +23,14 @@ SHARED real shell_visibility(global const TransmittanceShell* shell, Direction p
 #endif
   v = at_least(v, REAL(0.0));
   *out = place.square > REAL(1.00001);  // a little is rounding, not outside
-  if (ANY(*out)) {
-    real blocked = blocked_outside(place, shell->opacity, shell->outside);
+  const truth beyond = place.square > REAL(1.0);
+  if (ANY(beyond)) {
 #ifdef SKY_DOME
-    blocked *= share_above_horizon(place);
+    const real blocked = blocked_under_dome(place, normal.z, open, shell->opacity, shell->within, shell->outside);
+#else
+    const real blocked = blocked_outside(place, shell->opacity, shell->outside);
 #endif
-    v = PICK(*out, at_least(open - blocked, REAL(0.0)), v);
+    v = PICK(beyond, at_least(open - blocked, REAL(0.0)), v);
   }
   return v;
 }

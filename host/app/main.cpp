@@ -78,6 +78,7 @@ int main(int argument_count, char** arguments) {
   add_calibrate(program, chosen);
   add_bake(program, chosen);
   add_bench(program, chosen);
+  add_stability(program, chosen);
   add_devices(program, chosen);
   add_cache(program, chosen);
   try {

@@ -10,7 +10,8 @@
 //   ellipsoid a = sqrt(q/|M^T p| / R), M the map to the unit sphere: the way out is shorter across than along.
 //   horizon   (SKY_DOME) light w that leaves is b0 + b1 w.g + b2 (w.g)^2 to second order, whose mean over the lune of
 //             directions above the horizon is closed (lune.h); b follow from P0, P1, P2, so the fit has no more powers.
-//             Outside, of what the disc blocks, the part above the horizon counts: (1 - g.z)/2.
+//             Outside, of what the disc blocks, the part above the horizon counts; near the shell the fit's value on it
+//             takes the place of that estimate, fading as q^-8, so that V is continuous there.
 #ifndef UNDERSTORY_CROWN_TRANSMITTANCE_H
 #define UNDERSTORY_CROWN_TRANSMITTANCE_H
 
@@ -81,14 +82,18 @@ SHARED real transmittance_within(ShellPlace place, ELEMENT optical, ELEMENT bend
   return decay * fma(quartic(within + 5, z), place.along, sum);
 }
 
+/// Mean over the lune of light with the coefficients P0, P1, P2. `c`: n.z.
+SHARED real lune_mean(ShellPlace place, real c, real level, real slope, real curve) {
+  real sum = fma(-curve, place.square, level) * open_dome(c);
+  sum = fma(REAL(1.5) * slope, lune_first(place.along, place.rise, c), sum);
+  return fma(REAL(4.0) * curve, lune_second(place.along, place.rise, place.square, c), sum);
+}
+
 /// Within the shell, `sky: dome`. `c`: n.z; `within`: fitted with P4 = P6 = 0, not read.
 SHARED real transmittance_under_dome(ShellPlace place, real c, ELEMENT optical, ELEMENT bend, MATRIX within) {
   real z;
   const real decay = crown_decay(place, optical, bend, &z);
-  const real level = quartic(within, z), slope = quartic(within + 5, z), curve = quartic(within + 10, z);
-  real sum = fma(-curve, place.square, level) * open_dome(c);
-  sum = fma(REAL(1.5) * slope, lune_first(place.along, place.rise, c), sum);
-  return decay * fma(REAL(4.0) * curve, lune_second(place.along, place.rise, place.square, c), sum);
+  return decay * lune_mean(place, c, quartic(within, z), quartic(within + 5, z), quartic(within + 10, z));
 }
 
 /// What a crown blocks of the hemisphere of a fragment outside it, `sky: sphere`.
@@ -103,8 +108,30 @@ SHARED real blocked_outside(ShellPlace place, ELEMENT opacity, MATRIX outside) {
   return PICK(fabs(place.along) < REAL(1.0), at_least(cut, REAL(0.0)), all) * (inverse * inverse * inverse);
 }
 
-/// Of blocked_outside, the part above the horizon.
-SHARED real share_above_horizon(ShellPlace place) { return as_visibility(fma(REAL(-0.5), place.rise, REAL(0.5))); }
+/// Of blocked_outside, the part above the horizon. Tangent plane and horizon leave the shares h and z of the disc's
+/// width; both leave h z when they cross at a right angle, the lesser when they are one, h + z - 1 when they face each
+/// other (the Frechet bounds of joint shares), and what c = n.z puts between.
+SHARED real share_above_horizon(ShellPlace place, real c) {
+  const real h = as_visibility(fma(REAL(-0.5), place.along, REAL(0.5)));
+  const real z = as_visibility(fma(REAL(-0.5), place.rise, REAL(0.5)));
+  const real crossing = h * z, most = at_most(h, z), least = at_least(h + z - REAL(1.0), REAL(0.0));
+  const real bound = PICK(c > REAL(0.0), most, least);
+  return fma(fabs(c), bound - crossing, crossing) / at_least(h, REAL(1e-6));
+}
+
+/// What a crown blocks of what a fragment outside it sees of the dome. `open`: of the dome.
+SHARED real blocked_under_dome(ShellPlace place, real c, real open, ELEMENT opacity, MATRIX within, MATRIX outside) {
+  const real inverse = REAL(1.0) / sqrt(at_least(place.square, REAL(1.0)));
+  ShellPlace rim = place;
+  rim.square = REAL(1.0);
+  rim.along = place.along * inverse;
+  rim.rise = place.rise * inverse;
+  const real seen = lune_mean(rim, c, (real)(within[0]), (real)(within[5]), (real)(within[10]));
+  const real estimate = blocked_outside(rim, opacity, outside) * share_above_horizon(rim, c);
+  const real rest = open - at_least(seen, REAL(0.0)) - estimate;
+  const real p = inverse * inverse, square = p * p;
+  return fma(rest, square * square, blocked_outside(place, opacity, outside) * share_above_horizon(place, c));
+}
 
 #ifndef __OPENCL_C_VERSION__
 
@@ -113,8 +140,8 @@ inline double crown_transmittance(const TransmittanceShell& shell, double x, dou
                                   double c, bool dome) {
   const Direction offset = {x, y, z}, normal = {a, b, c};
   const ShellPlace place = place_in_shell(offset, normal, shell.to_unit, shell.radius);
-  const double blocked = blocked_outside(place, shell.opacity, shell.outside);
-  double v = dome ? open_dome(c) - blocked * share_above_horizon(place) : 1 - blocked;
+  double v = dome ? open_dome(c) - blocked_under_dome(place, c, open_dome(c), shell.opacity, shell.within, shell.outside)
+                  : 1 - blocked_outside(place, shell.opacity, shell.outside);
   if (place.square <= 1)
     v = dome ? transmittance_under_dome(place, c, shell.optical, shell.bend, shell.within)
              : transmittance_within(place, shell.optical, shell.bend, shell.within);

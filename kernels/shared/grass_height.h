@@ -11,7 +11,7 @@ namespace understory {
 
 /// `height`: above the root, m; `total`: of the grass, m. Grass of no height covers nothing: 1.
 SHARED real grass_height(real height, real total) {
-  return as_visibility(PICK(total > REAL(0.0), height / at_least(total, REAL(1e-30)), REAL(1.0)));
+  return as_visibility(PICK(total > REAL(0.0), height / total, REAL(1.0)));
 }
 
 #ifndef __OPENCL_C_VERSION__

@@ -6,7 +6,7 @@
 #include "kernels/shared/real.h"
 
 #define FARTHEST 1e12f   // m
-#define SMALLEST 1e-6f   // m
+#define SMALLEST 9e-7f   // m: 1e-6 counts
 
 /// False for what is not a number.
 SHARED truth in_reach(real x, real y, real z) {

@@ -6,6 +6,7 @@
 #include "kernels/shared/running_cone.h"
 #include "tests/reference/grid.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/grids.hpp"
 #include "tests/support/tolerances.hpp"
 
 namespace understory {

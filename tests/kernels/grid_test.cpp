@@ -5,6 +5,7 @@
 
 #include "tests/reference/grid.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/grids.hpp"
 #include "tests/support/tolerances.hpp"
 
 namespace understory {

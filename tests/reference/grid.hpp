@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/support/grids.hpp"
+#include "tests/support/grid_bodies.hpp"
 
 namespace understory::reference {
 

@@ -1,12 +1,12 @@
-// Bodies with occlusion grids for tests: what they are, where they stand, and their tables on the device.
+// Bodies with traced occlusion grids for tests, and fragments among them.
 #pragma once
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
-#include "host/passes/tile_grids.hpp"
 #include "host/trace/grid_bake.hpp"
 #include "sim/shapes.hpp"
 #include "tests/support/fragments.hpp"
+#include "tests/support/grid_bodies.hpp"
 
 namespace understory {
 
@@ -32,50 +32,6 @@ inline TestMesh table() {
   for (const float x : {-0.7f, 0.7f})
     for (const float y : {-0.4f, 0.4f}) mesh.add(box_part({0.1, 0.1, 0.9}), {x, y, 0.45f});
   return mesh;
-}
-
-struct GridBody {
-  OcclusionGrid grid;
-  glm::dmat3 rotation{1};
-  glm::dvec3 position{0};
-  std::int32_t group = -1;
-
-  GridRecord record(std::uint32_t first) const {
-    GridRecord r{};
-    const glm::dmat3 to_body = glm::transpose(rotation);
-    for (int row = 0; row < 3; ++row) {
-      const double scale = (grid.size[static_cast<std::size_t>(row)] - 1) / double(grid.high[row] - grid.low[row]);
-      double constant = -double(grid.low[row]);
-      for (int axis = 0; axis < 3; ++axis) {
-        r.to_grid[4 * row + axis] = static_cast<float>(scale * to_body[axis][row]);
-        r.axes[4 * row + axis] = static_cast<float>(rotation[axis][row]);
-        constant -= to_body[axis][row] * position[axis];
-      }
-      r.to_grid[4 * row + 3] = static_cast<float>(scale * constant);
-    }
-    r.first = first;
-    r.width = grid.size[0];
-    r.height = grid.size[1];
-    r.depth = grid.size[2];
-    r.group = group;
-    r.border = grid.border;
-    return r;
-  }
-};
-
-/// Every body has samples of its own.
-inline GridTable upload_grids(Device& device, const std::vector<GridBody>& bodies, bool cone) {
-  std::vector<std::uint8_t> samples;
-  std::vector<GridRecord> records;
-  for (const GridBody& body : bodies) {
-    records.push_back(body.record(static_cast<std::uint32_t>(samples.size() / (cone ? 4 : 1))));
-    const std::vector<std::uint8_t> packed = cone ? packed_cone(body.grid) : packed_share(body.grid);
-    samples.insert(samples.end(), packed.begin(), packed.end());
-  }
-  if (samples.empty()) samples.resize(8);
-  GridTable table(device, samples);
-  table.place(records);
-  return table;
 }
 
 /// Coarse grids and few rays: for tests of look-ups, not of accuracy.
@@ -105,13 +61,6 @@ inline std::vector<GridBody> random_bodies(std::size_t count, GridBorder border 
     bodies.push_back(body);
   }
   return bodies;
-}
-
-/// Owners: 0 background, 1 of no group, then one for each of `groups`.
-inline OwnerTables body_owners(Device& device, std::size_t groups) {
-  std::vector<Owner> owners(2 + groups);
-  for (std::size_t group = 0; group < groups; ++group) owners[2 + group].group = static_cast<std::int32_t>(group);
-  return upload_owners(device, owners);
 }
 
 /// Fragments among the bodies, a fifth of them on one.
