@@ -203,7 +203,8 @@ TruthRow AccuracyJudge::truth_itself() const {
 void AccuracyJudge::write_pictures(const Methods& methods, const std::string& method_name,
                                    const std::filesystem::path& folder) {
   runner_.choose(methods);
-  write_accuracy_picture(folder, name_ + " " + setting_ + " " + method_name, first_truth_, render(sides_.front()));
+  const std::string name = name_ + " " + setting_ + " " + method_name;
+  write_accuracy_picture(folder, name, name, first_truth_, render(sides_.front()));
 }
 
 }  // namespace understory

@@ -8,7 +8,8 @@
 namespace understory {
 
 /// Writes `folder`/`name`.png, spaces as underscores: truth | method | method - truth in [-0.5, 0.5], blue: too dark.
-void write_accuracy_picture(const std::filesystem::path& folder, const std::string& name, const Frame& truth,
-                            const Frame& method);
+/// `title`: over the method's part.
+void write_accuracy_picture(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+                            const Frame& truth, const Frame& method);
 
 }  // namespace understory

@@ -2,6 +2,8 @@
 // in turn so that drift of the machine meets all alike; the best of those with relaxed maths.
 #include "bench/tradeoff.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,7 +23,7 @@ namespace {
 
 constexpr int half_size = 2;
 constexpr int picture_rays = 64;  // of the truth in pictures of errors, per pixel
-constexpr int relaxed_variants = 4;
+constexpr std::size_t relaxed_variants = 4;
 
 double seconds_of(const std::function<void()>& action) {
   const auto started = std::chrono::steady_clock::now();
@@ -54,6 +56,7 @@ class Measuring {
       : device_(device),
         world_(world),
         options_(options),
+        image_(world.scene.image),
         store_(options.folder.empty() ? options.folder : options.folder / "variants", options.identity),
         judge_(device, world, judge_options(world, options)) {}
 
@@ -64,12 +67,13 @@ class Measuring {
     return {spread_frames(world.scene.time.frames, options.frames), options.pixels, options.rays, true};
   }
   bool stopped() const { return options_.stopped && options_.stopped(); }
-  void step(const std::string& next);
+  void done(const std::string& what);
   VariantRecord& measured(const Variant& variant, bool whole);
   void measure_first(VariantRecord& record, bool whole);
   void time_once_more(VariantRecord& record);
   std::optional<TradeoffModel> model(int shrink, const std::vector<Term>& terms);
   std::vector<Term> terms_on_front(const TradeoffModel& model) const;
+  void add_relaxed(std::vector<Variant>& whole) const;
   void measure_whole(const std::vector<Variant>& variants);
   void add_front(const TradeoffModel& model, std::vector<Variant>& whole);
   std::vector<TradeoffRow> rows() const;
@@ -79,18 +83,18 @@ class Measuring {
   Device& device_;
   World& world_;
   const TradeoffOptions& options_;
+  const ImageSize image_;  // the scene's; the judge changes the world's
   TradeoffStore store_;
   TradeoffJudge judge_;
   std::map<std::string, VariantRecord> records_;  // by name
   std::map<std::string, Combination> predicted_;
   std::set<std::string> baked_;
   PredictionQuality prediction_;
-  int done_ = 0, total_ = 0;
+  int steps_ = 0;  // in all, as far as is known
 };
 
-void Measuring::step(const std::string& next) {
-  if (options_.progress) options_.progress(done_, total_, next);
-  ++done_;
+void Measuring::done(const std::string& what) {
+  if (options_.progress) options_.progress(steps_, what);
 }
 
 /// Builds the variant twice: from warm caches the second time, and from no bakes at all the first where that is asked.
@@ -140,7 +144,7 @@ VariantRecord& Measuring::measured(const Variant& variant, bool whole) {
   VariantRecord record;
   record.row.variant = variant;
   record.row.name = name;
-  record.row.settings = variant.settings(world_.scene);
+  record.row.settings = variant.settings(image_);
   if (found != records_.end()) record.row.bake_s = found->second.row.bake_s;
   measure_first(record, whole);
   store_.save(record);
@@ -158,8 +162,8 @@ std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term
   const auto term_of = [&](Axis axis, Variant variant) -> std::optional<MeasuredTerm> {
     variant.shrink = shrink;
     if (stopped()) return std::nullopt;
-    step(variant.name());
     const VariantRecord& record = measured(variant, false);
+    done(record.row.name);
     if (!record.row.verified) return std::nullopt;
     return MeasuredTerm{axis, variant, record.values, spread_of(record.samples.device_ms).median};
   };
@@ -201,8 +205,10 @@ void Measuring::add_front(const TradeoffModel& model, std::vector<Variant>& whol
   const std::vector<Combination> all = model.predict();
   prediction_.combinations += all.size();
   for (const Combination& one : predicted_front(all, options_.combinations)) {
-    whole.push_back(model.variant_of(one));
-    predicted_[whole.back().name()] = one;
+    const Variant variant = model.variant_of(one);
+    predicted_[variant.name()] = one;
+    if (std::none_of(whole.begin(), whole.end(), [&](const Variant& other) { return other.name() == variant.name(); }))
+      whole.push_back(variant);
   }
   const std::string own = own_variant(world_).name();
   const auto found =
@@ -214,10 +220,23 @@ void Measuring::measure_whole(const std::vector<Variant>& variants) {
   for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
     for (std::size_t turn = 0; turn < variants.size() && !stopped(); ++turn) {
       const Variant& variant = variants[sweep % 2 == 0 ? turn : variants.size() - 1 - turn];
-      step(variant.name());
       VariantRecord& record = measured(variant, true);
       if (record.row.verified && record.sweeps <= sweep) time_once_more(record);
+      done(record.row.name);
     }
+  }
+}
+
+/// Some of them once more with relaxed maths: never the default, but what it would change is part of the table.
+void Measuring::add_relaxed(std::vector<Variant>& whole) const {
+  std::vector<Variant> full;
+  for (const Variant& variant : whole)
+    if (variant.shrink == 1) full.push_back(variant);
+  const std::size_t count = std::min(full.size(), relaxed_variants);
+  for (std::size_t i = 0; i < count; ++i) {
+    Variant variant = full[count == 1 ? 0 : i * (full.size() - 1) / (count - 1)];
+    variant.relaxed_maths = true;
+    whole.push_back(variant);
   }
 }
 
@@ -255,12 +274,13 @@ void Measuring::write_pictures(const std::vector<TradeoffRow>& rows) {
     std::optional<Frame> truth;
     for (const TradeoffRow& row : rows) {
       if (!row.pareto || stopped()) continue;
-      step("pictures of " + row.name);
       if (!truth) truth = judge_.truth_frame(view, picture_rays);
       judge_.choose(row.variant);
       const std::string camera = view.camera == 0 ? "" : " opposite";
-      write_accuracy_picture(options_.folder / "errors", variant_file_name(row.name, "") + camera, *truth,
+      write_accuracy_picture(options_.folder / "errors", variant_file_name(row.name, "") + camera,
+                             fmt::format("RMSE {:.3f}, {:.2f} ms", row.error.rmse, row.ms.median), *truth,
                              judge_.frame(view));
+      done("pictures of errors");
     }
   }
 }
@@ -295,18 +315,24 @@ void Measuring::describe(TradeoffTable& table) const {
 
 TradeoffTable Measuring::table() {
   const std::vector<Term> terms = terms_of(world_);
-  const int sweeps = options_.sweeps * (2 * options_.combinations + relaxed_variants);
-  total_ = static_cast<int>(terms.size()) + 1 + options_.combinations + sweeps;
-  TradeoffTable table;
+  // Guesses, until each stage says what comes after it.
+  steps_ = static_cast<int>(terms.size()) + 1 + options_.combinations * (1 + 2 * options_.sweeps);
   std::vector<Variant> whole{own_variant(world_)};
-  const std::optional<TradeoffModel> full = model(1, terms);
-  if (full) {
+  if (const std::optional<TradeoffModel> full = model(1, terms)) {
     const std::vector<Term> half_terms = terms_on_front(*full);
     add_front(*full, whole);
     if (const std::optional<TradeoffModel> half = model(half_size, half_terms)) add_front(*half, whole);
+    steps_ = static_cast<int>(terms.size() + half_terms.size()) + 2;
   }
+  add_relaxed(whole);
+  const int cameras = judge_.views().empty() ? 0 : judge_.views().back().camera + 1;
+  const int measured = steps_ + options_.sweeps * static_cast<int>(whole.size());
+  steps_ = measured + cameras * options_.combinations;  // pictures: a guess
   measure_whole(whole);
+  TradeoffTable table;
   table.rows = rows();
+  const auto front = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.pareto; });
+  steps_ = measured + cameras * static_cast<int>(front);
   if (!options_.folder.empty()) write_pictures(table.rows);
   describe(table);
   return table;

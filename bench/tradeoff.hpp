@@ -21,8 +21,9 @@ struct Variant {
 
   /// "crown-field + grass-height + ...": what differs from nothing at all; unique among variants of one scene.
   std::string name() const;
-  /// As `--set` takes them, all that decides the variant: "methods.tree=crown-field", "image.width=400", ...
-  std::vector<std::string> settings(const Scene& scene) const;
+  /// As `--set` takes them, all that decides the variant: "methods.tree=crown-field", "image.width=400", ... `image`:
+  /// the scene's.
+  std::vector<std::string> settings(const ImageSize& image) const;
 };
 
 /// Pixels of an image of 1/shrink of the width and height; at least 1.
@@ -101,8 +102,10 @@ struct TradeoffOptions {
   bool bakes = true;             // measure bake times, which takes the time of the bakes
   std::string identity;          // of scene, build and device, by the caller
   std::filesystem::path folder;  // keeps what has been measured, a file a variant; empty: nothing is kept
-  std::function<void(int done, int total, const std::string& next)> progress;  // may be empty
-  std::function<bool()> stopped;  // asked between variants; true: Error-free early return with what there is
+  /// Told after each step how many there are in all, as far as is known by then, and what was done; may be empty.
+  std::function<void(int steps, const std::string& done)> progress;
+  /// Asked between steps; true: returns at once, with what there is. May be empty.
+  std::function<bool()> stopped;
 };
 
 /// Measures the scene's variants: terms one by one, then the combinations that they predict to be on the front, whole.

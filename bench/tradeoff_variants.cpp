@@ -152,7 +152,7 @@ std::string Variant::name() const {
   return name;
 }
 
-std::vector<std::string> Variant::settings(const Scene& scene) const {
+std::vector<std::string> Variant::settings(const ImageSize& image) const {
   std::vector<std::string> all = {"methods.tree=" + methods.tree, "methods.grass=" + methods.grass,
                                   "methods.crowns=" + methods.crowns, "methods.occluders=" + methods.occluders,
                                   "methods.near=" + methods.near};
@@ -166,7 +166,7 @@ std::vector<std::string> Variant::settings(const Scene& scene) const {
     all.push_back(fmt::format("methods.near_field.blur={}", field.blur));
   }
   if (shrink > 1) {
-    const ImageSize size = shrunk(scene.image, shrink);
+    const ImageSize size = shrunk(image, shrink);
     all.push_back(fmt::format("image.width={}", size.width));
     all.push_back(fmt::format("image.height={}", size.height));
   }

@@ -28,6 +28,7 @@ void add_schema(CLI::App& program, Command& chosen);
 void add_explain(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_bake(CLI::App& program, Command& chosen);
+void add_tradeoff(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);
 void add_stability(CLI::App& program, Command& chosen);
 void add_devices(CLI::App& program, Command& chosen);

@@ -77,6 +77,7 @@ int main(int argument_count, char** arguments) {
   add_explain(program, chosen);
   add_calibrate(program, chosen);
   add_bake(program, chosen);
+  add_tradeoff(program, chosen);
   add_bench(program, chosen);
   add_stability(program, chosen);
   add_devices(program, chosen);

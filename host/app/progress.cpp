@@ -77,6 +77,11 @@ void Progress::advance(const std::string& step_name) {
   line_printed_ = Clock::now();
 }
 
+void Progress::advance(int total, const std::string& step_name) {
+  total_ = total;
+  advance(step_name);
+}
+
 void Progress::clear() {
   if (!bar_shown_) return;
   fmt::print(stderr, "\r\x1b[K");

@@ -14,6 +14,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void advance(const std::string& step_name);
+  /// The same when it turns out that there are so many steps in all.
+  void advance(int total, const std::string& step_name);
   /// Removes the bar so that a message can take its line.
   void clear();
 

@@ -37,7 +37,7 @@ class Device {
   void finish();
   /// Waits for all launches; milliseconds of device time per pass name since the last call, summed over launches.
   std::map<std::string, double> take_pass_times();
-  /// The same for programs built from now on.
+  /// Options of every program built from now on, before its own, in place of the constructor's `build_options`.
   void use_build_options(const std::string& build_options);
   /// Names of the programs built so far on this device (stems of .cl files), sorted.
   std::vector<std::string> programs_built() const;
