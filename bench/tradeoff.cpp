@@ -5,18 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
-#include <set>
 
 #include "bench/accuracy_pictures.hpp"
 #include "bench/tradeoff_judge.hpp"
 #include "bench/tradeoff_model.hpp"
-#include "bench/tradeoff_store.hpp"
-#include "host/frame/occluder_grids.hpp"
-#include "host/trace/bake_cache.hpp"
-#include "sim/error.hpp"
+#include "bench/tradeoff_records.hpp"
 
 namespace understory {
 namespace {
@@ -25,31 +19,6 @@ constexpr int half_size = 2;
 constexpr int picture_rays = 64;  // of the truth in pictures of errors, per pixel
 constexpr std::size_t relaxed_variants = 4;
 
-double seconds_of(const std::function<void()>& action) {
-  const auto started = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-}
-
-/// What has to be baked before these methods run, as a key; empty: nothing.
-std::string bakes_of(const Methods& methods) {
-  std::string bakes;
-  if (methods.tree == "crown-field" || methods.tree == "crown-baked") bakes += methods.tree;
-  if (is_grid_method(methods.occluders)) bakes += "grid" + std::to_string(methods.grid.size);
-  return bakes;
-}
-
-void append(const std::vector<double>& more, std::vector<double>& all) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-void append(const ShadingSamples& more, ShadingSamples& all) {
-  all.draw_ms = all.device_ms.empty() ? more.draw_ms : 0.5 * (all.draw_ms + more.draw_ms);
-  append(more.device_ms, all.device_ms);
-  append(more.wall_ms, all.wall_ms);
-  for (const auto& [pass, milliseconds] : more.pass_ms) append(milliseconds, all.pass_ms[pass]);
-}
-
 class Measuring {
  public:
   Measuring(Device& device, World& world, const TradeoffOptions& options)
@@ -57,8 +26,8 @@ class Measuring {
         world_(world),
         options_(options),
         image_(world.scene.image),
-        store_(options.folder.empty() ? options.folder : options.folder / "variants", options.identity),
-        judge_(device, world, judge_options(world, options)) {}
+        judge_(device, world, judge_options(world, options)),
+        records_(device, judge_, options, image_) {}
 
   TradeoffTable table();
 
@@ -68,9 +37,6 @@ class Measuring {
   }
   bool stopped() const { return options_.stopped && options_.stopped(); }
   void done(const std::string& what);
-  VariantRecord& measured(const Variant& variant, bool whole);
-  void measure_first(VariantRecord& record, bool whole);
-  void time_once_more(VariantRecord& record);
   std::optional<TradeoffModel> model(int shrink, const std::vector<Term>& terms);
   std::vector<Term> terms_on_front(const TradeoffModel& model) const;
   void add_relaxed(std::vector<Variant>& whole) const;
@@ -84,11 +50,9 @@ class Measuring {
   World& world_;
   const TradeoffOptions& options_;
   const ImageSize image_;  // the scene's; the judge changes the world's
-  TradeoffStore store_;
   TradeoffJudge judge_;
-  std::map<std::string, VariantRecord> records_;  // by name
-  std::map<std::string, Combination> predicted_;
-  std::set<std::string> baked_;
+  VariantRecords records_;
+  std::map<std::string, Combination> predicted_;  // by name of the variant
   PredictionQuality prediction_;
   int steps_ = 0;  // in all, as far as is known
 };
@@ -97,72 +61,11 @@ void Measuring::done(const std::string& what) {
   if (options_.progress) options_.progress(steps_, what);
 }
 
-/// Builds the variant twice: from warm caches the second time, and from no bakes at all the first where that is asked.
-void Measuring::measure_first(VariantRecord& record, bool whole) {
-  TradeoffRow& row = record.row;
-  const std::string bakes = bakes_of(row.variant.methods);
-  const bool fresh = options_.bakes && !bakes.empty() && baked_.insert(bakes).second;
-  double first_s = 0;
-  if (fresh) {
-    const FreshBakes none_kept;
-    first_s = seconds_of([&] { judge_.choose(row.variant); });
-  } else {
-    judge_.choose(row.variant);
-  }
-  row.start_s = seconds_of([&] { judge_.choose(row.variant); });
-  if (fresh) row.bake_s = std::max(0.0, first_s - row.start_s);
-  try {
-    record.values = judge_.values(whole);
-    row.verified = true;
-  } catch (const Error& error) {  // a wrong picture has no speed
-    row.failure = error.what();
-    return;
-  }
-  row.mib = static_cast<double>(device_.buffer_bytes()) / (1 << 20);
-  row.error = judge_.error(record.values.visibility);
-  row.classes = judge_.class_errors(record.values.visibility);
-  row.views = judge_.view_errors(record.values.visibility);
-  if (whole) row.temporal = judge_.temporal_error(record.values);
-  record.values.following.clear();
-  record.samples = judge_.time(options_.rounds);
-  record.sweeps = 1;
-}
-
-/// The record of a variant that may have been measured before. `whole`: with its error in time.
-VariantRecord& Measuring::measured(const Variant& variant, bool whole) {
-  const std::string name = variant.name();
-  auto found = records_.find(name);
-  if (found == records_.end()) {
-    if (std::optional<VariantRecord> kept = store_.load(name)) found = records_.emplace(name, std::move(*kept)).first;
-  }
-  const bool complete =
-      found != records_.end() && (!whole || found->second.row.temporal || !found->second.row.verified);
-  if (complete) {
-    if (found->second.row.bake_s >= 0) baked_.insert(bakes_of(variant.methods));
-    return found->second;
-  }
-  VariantRecord record;
-  record.row.variant = variant;
-  record.row.name = name;
-  record.row.settings = variant.settings(image_);
-  if (found != records_.end()) record.row.bake_s = found->second.row.bake_s;
-  measure_first(record, whole);
-  store_.save(record);
-  return records_.insert_or_assign(name, std::move(record)).first->second;
-}
-
-void Measuring::time_once_more(VariantRecord& record) {
-  judge_.choose(record.row.variant);
-  append(judge_.time(options_.rounds), record.samples);
-  ++record.sweeps;
-  store_.save(record);
-}
-
 std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term>& terms) {
   const auto term_of = [&](Axis axis, Variant variant) -> std::optional<MeasuredTerm> {
     variant.shrink = shrink;
     if (stopped()) return std::nullopt;
-    const VariantRecord& record = measured(variant, false);
+    const VariantRecord& record = records_.measured(variant);
     done(record.row.name);
     if (!record.row.verified) return std::nullopt;
     return MeasuredTerm{axis, variant, record.values, spread_of(record.samples.device_ms).median};
@@ -220,8 +123,9 @@ void Measuring::measure_whole(const std::vector<Variant>& variants) {
   for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
     for (std::size_t turn = 0; turn < variants.size() && !stopped(); ++turn) {
       const Variant& variant = variants[sweep % 2 == 0 ? turn : variants.size() - 1 - turn];
-      VariantRecord& record = measured(variant, true);
-      if (record.row.verified && record.sweeps <= sweep) time_once_more(record);
+      VariantRecord& record = records_.measured(variant);
+      records_.judge_in_time(record);
+      if (record.row.verified && record.sweeps <= sweep) records_.time_once_more(record);
       done(record.row.name);
     }
   }
@@ -242,10 +146,10 @@ void Measuring::add_relaxed(std::vector<Variant>& whole) const {
 
 std::vector<TradeoffRow> Measuring::rows() const {
   std::map<int, std::vector<double>> drawing;
-  for (const auto& [name, record] : records_)
+  for (const auto& [name, record] : records_.all())
     if (record.row.verified) drawing[record.row.variant.shrink].push_back(record.samples.draw_ms);
   std::vector<TradeoffRow> rows;
-  for (const auto& [name, record] : records_) {
+  for (const auto& [name, record] : records_.all()) {
     TradeoffRow row = record.row;
     if (row.verified) {
       row.ms = spread_of(record.samples.device_ms);
@@ -330,6 +234,9 @@ TradeoffTable Measuring::table() {
   steps_ = measured + cameras * options_.combinations;  // pictures: a guess
   measure_whole(whole);
   TradeoffTable table;
+  table.rows = rows();
+  for (const TradeoffRow& row : table.rows)
+    if (row.pareto && !stopped()) records_.judge_in_time(records_.at(row.name));
   table.rows = rows();
   const auto front = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.pareto; });
   steps_ = measured + cameras * static_cast<int>(front);

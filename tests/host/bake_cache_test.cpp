@@ -40,6 +40,16 @@ TEST_F(BakeCache, GivesBackWhatWasStored) {
   EXPECT_FALSE(load_bake("test", hash_of("a")));
 }
 
+TEST_F(BakeCache, IsNotReadWhileBakesAreToBeFresh) {
+  store_bake("test", hash_of("a"), "old");
+  {
+    const FreshBakes none_kept;
+    EXPECT_FALSE(load_bake("test", hash_of("a")));
+    store_bake("test", hash_of("a"), "new");
+  }
+  EXPECT_EQ(load_bake("test", hash_of("a")), "new");
+}
+
 TEST_F(BakeCache, NeverGivesBackADamagedFile) {
   const std::string bytes = "some result";
   store_bake("test", hash_of("a"), bytes);
