@@ -97,46 +97,56 @@ Frame TradeoffJudge::render(const JudgedView& view, double time) {
   return frame;
 }
 
-JudgedValues TradeoffJudge::values(bool following) {
+JudgedValues TradeoffJudge::values(int rounds, ShadingSamples* samples) {
   JudgedValues values;
   for (const JudgedView& view : views_) {
     const Frame frame = render(view, view.time);
     if (&view == &views_.front() && render(view, view.time).visibility != frame.visibility)
       throw Error(ErrorKind::unexpected, fmt::format("frame {} rendered twice gives two results", view.frame));
-    std::vector<std::size_t> seen;
-    for (const std::uint32_t pixel : view.pixels) seen.push_back(seen_pixel(pixel, frame));
-    for (const std::size_t i : seen) {
+    if (samples) time_view(frame, rounds, *samples);
+    for (const std::uint32_t pixel : view.pixels) {
+      const std::size_t i = seen_pixel(pixel, frame);
       values.visibility.push_back(frame.visibility[i]);
       values.classes.push_back(judged_class(frame.owners.at(frame.owner[i]).surface));
       for (const auto& [name, plane] : frame.terms) values.terms[name].push_back(plane[i]);
     }
-    if (!following) continue;
-    const Frame next = render(view, view.next_time);
-    for (const std::size_t i : seen) values.following.push_back(next.visibility[i]);
   }
   return values;
 }
 
-ShadingSamples TradeoffJudge::time(int rounds) {
-  ShadingSamples samples;
+std::vector<float> TradeoffJudge::following() {
+  std::vector<float> visibility;
+  for (const JudgedView& view : views_) {
+    const Frame next = render(view, view.next_time);
+    for (const std::uint32_t pixel : view.pixels) visibility.push_back(next.visibility[seen_pixel(pixel, next)]);
+  }
+  return visibility;
+}
+
+void TradeoffJudge::time_view(const Frame& frame, int rounds, ShadingSamples& samples) {
   const auto count = static_cast<std::size_t>(rounds);
   samples.device_ms.resize(count);
   samples.wall_ms.resize(count);
   const double share = 1 / static_cast<double>(views_.size());
+  for (const auto& [pass, milliseconds] : frame.pass_ms)
+    if (is_drawing(pass)) samples.draw_ms += share * milliseconds;
+  for (std::size_t round = 0; round < count; ++round) {
+    device_.take_pass_times();
+    samples.wall_ms[round] += share * wall_milliseconds(device_, [&] { runner_.shade_again(); });
+    for (const auto& [pass, milliseconds] : device_.take_pass_times()) {
+      std::vector<double>& all = samples.pass_ms[pass];
+      all.resize(count);
+      all[round] += share * milliseconds;
+      samples.device_ms[round] += share * milliseconds;
+    }
+  }
+}
+
+ShadingSamples TradeoffJudge::time(int rounds) {
+  ShadingSamples samples;
   for (const JudgedView& view : views_) {
     look_from(view);
-    for (const auto& [pass, milliseconds] : runner_.render(view.frame, view.time).pass_ms)
-      if (is_drawing(pass)) samples.draw_ms += share * milliseconds;
-    for (std::size_t round = 0; round < count; ++round) {
-      device_.take_pass_times();
-      samples.wall_ms[round] += share * wall_milliseconds(device_, [&] { runner_.shade_again(); });
-      for (const auto& [pass, milliseconds] : device_.take_pass_times()) {
-        std::vector<double>& all = samples.pass_ms[pass];
-        all.resize(count);
-        all[round] += share * milliseconds;
-        samples.device_ms[round] += share * milliseconds;
-      }
-    }
+    time_view(runner_.render(view.frame, view.time), rounds, samples);
   }
   return samples;
 }
@@ -207,14 +217,15 @@ std::vector<ViewError> TradeoffJudge::view_errors(const std::vector<float>& visi
   return result;
 }
 
-TemporalError TradeoffJudge::temporal_error(const JudgedValues& values) const {
+TemporalError TradeoffJudge::temporal_error(const std::vector<float>& visibility,
+                                            const std::vector<float>& following) const {
   TemporalError result;
   double squares = 0, truth_squares = 0;
   std::size_t count = 0;
   for_each_pixel(views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
     if (view.following.rays.at(i) == 0) return;  // nothing is seen there any more
     const double per_second = 1 / (view.next_time - view.time);
-    const double change = double(values.following.at(all)) - double(values.visibility.at(all));
+    const double change = double(following.at(all)) - double(visibility.at(all));
     const double truth_change = double(view.following.visibility[i]) - double(view.truth.visibility[i]);
     const double variance = truth_variance(view.truth.halfwidth[i], view.truth.rays[i]) +
                             truth_variance(view.following.halfwidth[i], view.following.rays[i]);

@@ -16,7 +16,6 @@ struct JudgedValues {
   std::vector<float> visibility;
   std::vector<JudgedClass> classes;                 // what the variant's own image shows there
   std::map<std::string, std::vector<float>> terms;  // by method name
-  std::vector<float> following;                     // V in the frames after; empty unless judged
 };
 
 /// Times of the resolve and all visibility passes after it. One entry a round: mean over the views, ms.
@@ -38,9 +37,11 @@ class TradeoffJudge {
   /// Builds the variant's programs and tables: what is asked for next is of it.
   void choose(const Variant& variant);
 
-  /// Renders all views. `following`: the frames after them too. Throws Error(unexpected) when V anywhere is not in
-  /// [0, 1], or differs when the first view is rendered again.
-  JudgedValues values(bool following = false);
+  /// Renders all views. Throws Error(unexpected) when V anywhere is not in [0, 1], or differs when the first view is
+  /// rendered again. With `samples`: shades each view `rounds` times more and tells the times.
+  JudgedValues values(int rounds = 0, ShadingSamples* samples = nullptr);
+  /// V at the judged pixels in the frames after those of the views.
+  std::vector<float> following();
   /// Draws every view and shades it `rounds` times.
   ShadingSamples time(int rounds);
   /// A whole view as the variant shades it, and as traced truth with so many rays a pixel; both of the scene's size.
@@ -53,11 +54,13 @@ class TradeoffJudge {
   RmseInterval error(const std::vector<float>& visibility) const;
   std::map<std::string, RmseInterval> class_errors(const std::vector<float>& visibility) const;
   std::vector<ViewError> view_errors(const std::vector<float>& visibility) const;
-  /// Needs JudgedValues::following.
-  TemporalError temporal_error(const JudgedValues& values) const;
+  /// Of JudgedValues::visibility and following().
+  TemporalError temporal_error(const std::vector<float>& visibility, const std::vector<float>& following) const;
 
  private:
   Frame render(const JudgedView& view, double time);
+  /// Adds a view that has just been rendered as `frame`.
+  void time_view(const Frame& frame, int rounds, ShadingSamples& samples);
   void look_from(const JudgedView& view);
   /// The pixel of the variant's image that shows the middle of the scene's `pixel`.
   std::size_t seen_pixel(std::uint32_t pixel, const Frame& frame) const;

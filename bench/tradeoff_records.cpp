@@ -60,7 +60,7 @@ void VariantRecords::measure(VariantRecord& record) {
   row.start_s = seconds_of([&] { judge_.choose(row.variant); });
   if (fresh) row.bake_s = std::max(0.0, first_s - row.start_s);
   try {
-    record.values = judge_.values();
+    record.values = judge_.values(options_.rounds, &record.samples);
     row.verified = true;
   } catch (const Error& error) {  // a wrong picture has no speed
     row.failure = error.what();
@@ -70,7 +70,6 @@ void VariantRecords::measure(VariantRecord& record) {
   row.error = judge_.error(record.values.visibility);
   row.classes = judge_.class_errors(record.values.visibility);
   row.views = judge_.view_errors(record.values.visibility);
-  record.samples = judge_.time(options_.rounds);
   record.sweeps = 1;
 }
 
@@ -93,7 +92,7 @@ VariantRecord& VariantRecords::measured(const Variant& variant) {
 void VariantRecords::judge_in_time(VariantRecord& record) {
   if (record.row.temporal || !record.row.verified) return;
   judge_.choose(record.row.variant);
-  record.row.temporal = judge_.temporal_error(judge_.values(true));
+  record.row.temporal = judge_.temporal_error(record.values.visibility, judge_.following());
   store_.save(record);
 }
 

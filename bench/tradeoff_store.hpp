@@ -14,7 +14,7 @@ struct VariantRecord {
   TradeoffRow row;         // times not yet in it; no prediction, front, ties
   ShadingSamples samples;  // of all sweeps together
   int sweeps = 0;
-  JudgedValues values;  // without `following`
+  JudgedValues values;
 };
 
 class TradeoffStore {

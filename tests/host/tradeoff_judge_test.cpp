@@ -74,20 +74,18 @@ TEST(TradeoffJudge, AddsClassesAndViewsUpToTheWhole) {
 
 TEST(TradeoffJudge, SeesChangesInTimeThatTheTruthDoesNotHave) {
   Judged judged(256, true);
-  JudgedValues values = judged.judge.values(true);
-  ASSERT_EQ(values.following.size(), values.visibility.size());
-  values.visibility = truths(judged.judge);
-  values.following.clear();
+  const std::vector<float> visibility = truths(judged.judge);
+  EXPECT_EQ(judged.judge.following().size(), visibility.size());
+  std::vector<float> following;
   for (const JudgedView& view : judged.judge.views())
-    values.following.insert(values.following.end(), view.following.visibility.begin(), view.following.visibility.end());
-  const TemporalError none = judged.judge.temporal_error(values);
+    following.insert(following.end(), view.following.visibility.begin(), view.following.visibility.end());
+  const TemporalError none = judged.judge.temporal_error(visibility, following);
   EXPECT_EQ(none.rmse_dvdt, 0);
   EXPECT_LE(none.flicker, 0);
   EXPECT_GT(none.truth_dvdt, 0);
-  std::size_t brighter = 0;
-  for (std::size_t i = 0; i < values.following.size(); ++i, ++brighter) values.following[i] += 0.5f;
+  for (float& v : following) v += 0.5f;
   const double per_second = meadow_view().time.frames_per_second;
-  EXPECT_NEAR(judged.judge.temporal_error(values).rmse_dvdt, 0.5 * per_second, 0.02 * per_second);
+  EXPECT_NEAR(judged.judge.temporal_error(visibility, following).rmse_dvdt, 0.5 * per_second, 0.02 * per_second);
 }
 
 TEST(TradeoffJudge, TimesTheResolveAndWhatFollowsIt) {
