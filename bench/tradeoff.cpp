@@ -223,12 +223,15 @@ TradeoffTable Measuring::table() {
   steps_ = static_cast<int>(terms.size()) + 1 + options_.combinations * (1 + 2 * options_.sweeps);
   std::vector<Variant> whole{own_variant(world_)};
   if (const std::optional<TradeoffModel> full = model(1, terms)) {
-    const std::vector<Term> half_terms = terms_on_front(*full);
+    steps_ = static_cast<int>(terms.size()) + 1;
     add_front(*full, whole);
-    if (const std::optional<TradeoffModel> half = model(half_size, half_terms)) add_front(*half, whole);
-    steps_ = static_cast<int>(terms.size() + half_terms.size()) + 2;
+    if (!options_.runnable_only) {
+      const std::vector<Term> half_terms = terms_on_front(*full);
+      if (const std::optional<TradeoffModel> half = model(half_size, half_terms)) add_front(*half, whole);
+      steps_ += static_cast<int>(half_terms.size()) + 1;
+      add_relaxed(whole);
+    }
   }
-  add_relaxed(whole);
   const int cameras = judge_.views().empty() ? 0 : judge_.views().back().camera + 1;
   const int measured = steps_ + options_.sweeps * static_cast<int>(whole.size());
   steps_ = measured + cameras * options_.combinations;  // pictures: a guess
@@ -240,7 +243,7 @@ TradeoffTable Measuring::table() {
   table.rows = rows();
   const auto front = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.pareto; });
   steps_ = measured + cameras * static_cast<int>(front);
-  if (!options_.folder.empty()) write_pictures(table.rows);
+  if (!options_.folder.empty() && !options_.runnable_only) write_pictures(table.rows);
   describe(table);
   return table;
 }

@@ -99,6 +99,7 @@ struct TradeoffOptions {
   int rounds = 9;                // timed per view and sweep
   int sweeps = 3;                // over the combinations that are measured whole, forwards and backwards
   int combinations = 16;         // of the predicted front that are measured whole, at most
+  bool runnable_only = false;    // only what a run may be made with: no half size, no relaxed maths, no pictures
   bool bakes = true;             // measure bake times, which takes the time of the bakes
   std::string identity;          // of scene, build and device, by the caller
   std::filesystem::path folder;  // keeps what has been measured, a file a variant; empty: nothing is kept
