@@ -20,6 +20,7 @@ for kernel in kernels/*.cl; do
     if grep -q COMBINE "$kernel"; then
       for rule in multiply simple merge; do lint "$kernel" "-DW=$width" "-DCOMBINE=$rule"; done
       lint "$kernel" "-DW=$width" -DCOMBINE=merge -DPAPER_CONE -DCONES
+      lint "$kernel" "-DW=$width" -DCOMBINE=merge -DUNION -DCONES
       continue
     fi
     if grep -q SELF_PAPER "$kernel"; then lint "$kernel" "-DW=$width" -DSELF_PAPER; fi

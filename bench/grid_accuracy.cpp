@@ -24,7 +24,7 @@ constexpr Variant variants[] = {{"solid-angle-cosine", ""},    {"grid", ""},
                                 {"grid-self-paper", ""},       {"grid-cone-paper", "multiply"},
                                 {"grid-cone-paper", "simple"}, {"grid-cone-paper", "merge"},
                                 {"grid-cone", "multiply"},     {"grid-cone", "simple"},
-                                {"grid-cone", "merge"}};
+                                {"grid-cone", "merge"},        {"grid-cone", "union"}};
 
 /// V of a kind of receiver in all frames of a scene: truth, and one row of values per variant.
 struct Samples {
@@ -61,6 +61,21 @@ Truth truth_at(const Tracer& tracer, const Frame& frame, glm::vec3 eye, const st
 void add_truth(const Truth& truth, Samples& samples) {
   samples.truth.insert(samples.truth.end(), truth.visibility.begin(), truth.visibility.end());
   samples.halfwidth.insert(samples.halfwidth.end(), truth.halfwidth.begin(), truth.halfwidth.end());
+}
+
+/// One after the other.
+Samples joined(std::initializer_list<const Samples*> parts) {
+  Samples all;
+  const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (const Samples* part : parts) {
+    append(all.truth, part->truth);
+    append(all.halfwidth, part->halfwidth);
+    for (std::size_t variant = 0; variant < all.values.size(); ++variant)
+      append(all.values[variant], part->values[variant]);
+  }
+  return all;
 }
 
 GridAccuracyRow row_of(const std::string& scene, const std::string& receivers, const Samples& samples,
@@ -127,6 +142,7 @@ void measure_scene(Device& device, const std::filesystem::path& file, const Grid
     report.rows.push_back(row_of(scene.name, "ground", ground, variant));
     report.rows.push_back(row_of(scene.name, "contact", contact, variant));
     report.rows.push_back(row_of(scene.name, "bodies", bodies, variant));
+    report.rows.push_back(row_of(scene.name, "all", joined({&ground, &contact, &bodies}), variant));
   }
 }
 
@@ -158,11 +174,14 @@ std::string table_of(const GridAccuracyReport& report, const std::string& receiv
     }
     text += "\n";
   }
-  text += "| grid-cone merge / multiply |";
-  for (const std::string& scene : scenes)
-    text += fmt::format(" {:.2f} |", row_for(report, scene, receivers, "grid-cone merge").rmse /
-                                         row_for(report, scene, receivers, "grid-cone multiply").rmse);
-  return text + "\n";
+  for (const char* combined : {"merge", "union"}) {
+    text += fmt::format("| grid-cone {} / multiply |", combined);
+    for (const std::string& scene : scenes)
+      text += fmt::format(" {:.2f} |", row_for(report, scene, receivers, std::string("grid-cone ") + combined).rmse /
+                                           row_for(report, scene, receivers, "grid-cone multiply").rmse);
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -185,6 +204,7 @@ std::string grid_accuracy_markdown(const GridAccuracyReport& report) {
   text += table_of(report, "ground", "Ground, at least one cell of the body's grid from the body");
   text += table_of(report, "contact", "Ground within one cell of a body: contact");
   text += table_of(report, "bodies", "The bodies themselves");
+  text += table_of(report, "all", "All of them");
   return text;
 }
 

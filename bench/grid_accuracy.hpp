@@ -22,7 +22,7 @@ struct GridAccuracyOptions {
 /// Errors of V_c of the occluders alone, `sky: sphere`, over fragments within some occluder's grid.
 struct GridAccuracyRow {
   std::string scene;
-  std::string receivers;  // ground: at least one cell of the grid from the body; contact: ground within; bodies
+  std::string receivers;  // ground: at least one cell of the grid from the body; contact: ground within; bodies; all
   std::string method;     // as in scenes; with the rule: grid-cone merge
   std::size_t fragments = 0;
   double mean_truth = 0, truth_noise = 0;  // mean V; root mean square standard error of the truth

@@ -39,11 +39,12 @@ std::vector<GridRecord> records_of(const BenchFragments& all) {
     GridRecord record{};
     const glm::vec3 centre(ball.x, ball.y, ball.z);
     for (int axis = 0; axis < 3; ++axis) {
-      const float scale = 31 / (5.6f * ball.radius);
-      record.to_grid[5 * axis] = scale;
-      record.to_grid[4 * axis + 3] = 15.5f - scale * centre[axis];
+      const float scale = 2 / (5.6f * ball.radius);
+      record.to_box[5 * axis] = scale;
+      record.to_box[4 * axis + 3] = -scale * centre[axis];
       record.axes[5 * axis] = 1;
     }
+    record.faded_from = faded_from(ball_grid());
     record.width = record.height = record.depth = 32;
     record.group = ball.group;
     records.push_back(record);

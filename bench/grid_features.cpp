@@ -21,6 +21,7 @@ constexpr Feature features[] = {{"solid-angle-cosine", "solid-angle-cosine", "me
                                 {"simple", "grid-cone", "simple"},
                                 {"simple+environment", "grid-cone", "simple", true},
                                 {"merge", "grid-cone", "merge"},
+                                {"union", "grid-cone", "union"},
                                 {"merge+environment", "grid-cone", "merge", true},
                                 {"merge+environment+gloss", "grid-cone", "merge", true, true}};
 

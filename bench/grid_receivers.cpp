@@ -16,8 +16,19 @@ namespace {
 struct PosedPart {
   Transform pose;
   Box box;          // of its grid, in its own frame, m
-  double cell = 0;  // m, the grid's longest
+  double cell = 0;  // m, the longest that meets the body
 };
+
+/// Longest cell of a grid that meets the body in it: cells grow away from the middle.
+double longest_cell(const Box& body, const Box& grid, const GridChoice& choice) {
+  double longest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * (grid.high[axis] - grid.low[axis]), more = choice.stretch;
+    const double u = 0.5 * (body.high[axis] - body.low[axis]) / half, sparse = (1 + more * u) * (1 + more * u);
+    longest = std::max(longest, 2 * half / (choice.size - 1) * sparse / (1 + more));
+  }
+  return longest;
+}
 
 std::vector<PosedPart> posed_parts(const World& world, double time) {
   std::vector<PosedPart> parts;
@@ -34,8 +45,7 @@ std::vector<PosedPart> posed_parts(const World& world, double time) {
     }
     for (std::size_t part = 0; part < poses.size(); ++part) {
       const Box grid = grid_extent(boxes[part], choice.epsilon);
-      const glm::dvec3 edges = grid.high - grid.low;
-      parts.push_back({poses[part], grid, std::max({edges.x, edges.y, edges.z}) / (choice.size - 1)});
+      parts.push_back({poses[part], grid, longest_cell(boxes[part], grid, choice)});
     }
   }
   return parts;

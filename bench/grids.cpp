@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "bench/timing.hpp"
@@ -14,7 +15,7 @@
 namespace understory {
 namespace {
 
-constexpr int repetitions = 9;
+constexpr int repetitions = 15;
 constexpr double body_size = 0.5;  // m, before the number of bodies scales it
 
 /// A ball of about `triangles` triangles with bumps, so that no two are alike.
@@ -56,13 +57,36 @@ RawMesh::Part ground(std::uint32_t cells, double size) {
   return part;
 }
 
+/// The same shape with every triangle cut into n^2.
+RawMesh::Part subdivided(const RawMesh::Part& coarse, std::uint32_t n) {
+  RawMesh::Part fine;
+  fine.name = coarse.name;
+  fine.surface = coarse.surface;
+  for (std::size_t t = 0; t < coarse.triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t i) { return glm::dvec3(coarse.positions[coarse.triangles[t + i]]); };
+    const glm::dvec3 along = (corner(1) - corner(0)) / double(n), across = (corner(2) - corner(0)) / double(n);
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const auto row = static_cast<std::uint32_t>(fine.positions.size()), above = row + n + 1 - i;
+      for (std::uint32_t j = 0; j <= n - i; ++j)
+        fine.positions.emplace_back(corner(0) + double(j) * along + double(i) * across);
+      for (std::uint32_t j = 0; j + i < n; ++j) {
+        fine.triangles.insert(fine.triangles.end(), {row + j, row + j + 1, above + j});
+        if (j + i + 1 < n) fine.triangles.insert(fine.triangles.end(), {row + j + 1, above + j + 1, above + j});
+      }
+    }
+  }
+  return fine;
+}
+
 struct Layout {
   int columns = 8, rows = 5;        // bodies
-  std::size_t triangles = 400;      // of each body
+  std::uint32_t cuts = 1;           // each of a body's 400 triangles is cut into cuts^2
   std::uint32_t ground_cells = 70;  // along a side
+  int bodies() const { return columns * rows; }
 };
 
-/// Bodies on a square lattice, so near that four grids and more hold each point, seen from above: 800 x 600 pixels.
+/// Bodies on a square lattice, so near that four grids and more hold each point, or a single one whose grid does, seen
+/// from above: 800 x 600 pixels.
 struct Lattice {
   World world;
   double grid_half = 0;  // m: half an edge of a body's grid
@@ -77,7 +101,9 @@ Lattice make_lattice(const Layout& layout, const Methods& methods) {
   lattice.grid_half = grid_half_of(body_size, methods.grid.epsilon);
   const double spacing = 0.9 * lattice.grid_half;
   // No wider than what four grids hold in either direction.
-  const double width = spacing * std::min(layout.columns - 3.0, (layout.rows - 1.5) / 0.75), height = width * 0.75;
+  const double width = layout.bodies() == 1 ? 1.6 * lattice.grid_half
+                                            : spacing * std::min(layout.columns - 3.0, (layout.rows - 1.5) / 0.75);
+  const double height = width * 0.75;
   Scene scene;
   scene.name = "lattice";
   scene.image = {800, 600};
@@ -101,7 +127,7 @@ Lattice make_lattice(const Layout& layout, const Methods& methods) {
     }
   lattice.world = build_world(scene);
   RawMesh bumpy, plane;
-  bumpy.parts.push_back(bumpy_ball(layout.triangles, body_size));
+  bumpy.parts.push_back(subdivided(bumpy_ball(400, body_size), layout.cuts));
   plane.parts.push_back(ground(layout.ground_cells, 4 * width));
   const Prototype body = rigid_prototype("ball", bumpy), floor = rigid_prototype("ground", plane);
   // One prototype for all: the same triangles are uploaded and posed for each body all the same.
@@ -134,28 +160,49 @@ int fewest_grids(const Lattice& lattice, const Frame& frame) {
   return fewest;
 }
 
-void bench_lattice(Device& device, const std::string& name, const Layout& layout, const Methods& methods,
-                   BenchReport& report) {
-  const Lattice lattice = make_lattice(layout, methods);
-  FrameRunner runner(device, lattice.world);
-  runner.render(0, 0.1);
-  std::vector<double> samples;
-  Frame frame;
-  for (int i = 0; i < repetitions; ++i) {
-    frame = runner.render(i, 0.1 + 0.1 * i);
-    samples.push_back(frame.pass_ms.at(methods.occluders));
+/// One row of the table: a lattice that is rendered again and again.
+struct Timed {
+  std::string name;
+  Layout layout;
+  Methods methods;
+};
+
+/// The rows in turn, frame by frame, so that drift of the machine meets all alike: their ratios are what matters.
+void bench_lattices(Device& device, const std::vector<Timed>& rows, BenchReport& report) {
+  struct Running {
+    Lattice lattice;
+    std::unique_ptr<FrameRunner> runner;
+    std::vector<double> samples;
+    Frame frame;
+  };
+  std::vector<std::unique_ptr<Running>> all;
+  for (const Timed& row : rows) {
+    all.push_back(std::make_unique<Running>());
+    all.back()->lattice = make_lattice(row.layout, row.methods);
+    all.back()->runner = std::make_unique<FrameRunner>(device, all.back()->lattice.world);
+    all.back()->runner->render(0, 0.1);
   }
-  BenchResult result;
-  result.name = name;
-  const bool sound =
-      std::all_of(frame.visibility.begin(), frame.visibility.end(), [](float v) { return v >= 0 && v <= 1; });
-  result.verified = sound && fewest_grids(lattice, frame) >= 4;
-  const Spread95 spread = spread_of(samples);
-  result.median_ms = spread.median;
-  result.low_ms = *std::min_element(samples.begin(), samples.end());
-  result.high_ms = spread.high;
-  result.items_per_s = static_cast<double>(frame.pixels()) / (spread.median * 1e-3);
-  report.results.push_back(result);
+  for (int i = 0; i < repetitions; ++i)
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Running& running = *all[i % 2 == 0 ? k : rows.size() - 1 - k];
+      running.frame = running.runner->render(i, 0.1 + 0.05 * i);
+      running.samples.push_back(running.frame.pass_ms.at(running.lattice.world.scene.methods.occluders));
+    }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Running& running = *all[k];
+    const std::vector<float>& v = running.frame.visibility;
+    const bool sound = std::all_of(v.begin(), v.end(), [](float share) { return share >= 0 && share <= 1; });
+    const int least = rows[k].layout.bodies() == 1 ? 1 : 4;
+    BenchResult result;
+    result.name = rows[k].name;
+    result.verified = sound && fewest_grids(running.lattice, running.frame) >= least;
+    const Spread95 spread = spread_of(running.samples);
+    result.median_ms = spread.median;
+    result.low_ms = *std::min_element(running.samples.begin(), running.samples.end());
+    result.high_ms = spread.high;
+    result.items_per_s = static_cast<double>(v.size()) / (spread.median * 1e-3);
+    report.results.push_back(result);
+  }
 }
 
 void bench_bake(const std::string& name, std::size_t triangles, BenchReport& report) {
@@ -192,24 +239,31 @@ void bench_grids(Device& device, const BenchOptions& options, BenchReport& repor
     if (options.progress) options.progress(name);
     return true;
   };
-  Methods methods;
-  for (const auto& [columns, rows] : {std::pair{8, 5}, std::pair{40, 25}})
-    for (const char* method : {"grid", "grid-cone-multiply", "grid-cone-merge"}) {
-      const std::string name = "grid/occluders-" + std::to_string(columns * rows) + "/" + method;
-      if (!wanted(name)) continue;
-      const std::string text = method;
-      methods.occluders = text == "grid" ? "grid" : "grid-cone";
-      methods.combine = text == "grid-cone-multiply" ? "multiply" : "merge";
-      bench_lattice(device, name, {columns, rows, 400, 70}, methods, report);
-    }
-  methods.occluders = "grid-cone";
-  methods.combine = "merge";
-  for (const std::size_t triangles : {400u, 25'000u})  // each of 40 bodies: 16,000 and 1 million in all
-    if (const std::string name = "grid/occluder-triangles-" + std::to_string(40 * triangles); wanted(name))
-      bench_lattice(device, name, {8, 5, triangles, 70}, methods, report);
-  for (const std::uint32_t cells : {70u, 700u})
-    if (const std::string name = "grid/scene-triangles-" + std::to_string(2 * cells * cells); wanted(name))
-      bench_lattice(device, name, {8, 5, 400, cells}, methods, report);
+  const auto bench_wanted = [&](const std::vector<Timed>& rows) {
+    std::vector<Timed> some;
+    for (const Timed& row : rows)
+      if (wanted(row.name)) some.push_back(row);
+    if (!some.empty()) bench_lattices(device, some, report);
+  };
+  Methods scalar, multiply, merge, all_once;
+  scalar.occluders = "grid";
+  multiply.occluders = merge.occluders = all_once.occluders = "grid-cone";
+  multiply.combine = "multiply";
+  merge.combine = "merge";
+  all_once.combine = "union";
+  for (const Layout& layout : {Layout{8, 5}, Layout{40, 25}}) {
+    const std::string name = "grid/occluders-" + std::to_string(layout.bodies()) + "/";
+    bench_wanted({{name + "grid", layout, scalar},
+                  {name + "grid-cone-multiply", layout, multiply},
+                  {name + "grid-cone-merge", layout, merge},
+                  {name + "grid-cone-union", layout, all_once}});
+  }
+  // Flat: the same picture of more triangles.
+  bench_wanted(
+      {{"grid/one-occluder-400-triangles", {1, 1}, merge}, {"grid/one-occluder-1000000-triangles", {1, 1, 50}, merge}});
+  bench_wanted({{"grid/40-occluders-400-triangles-each", {8, 5}, merge},
+                {"grid/40-occluders-25600-triangles-each", {8, 5, 8}, merge}});
+  bench_wanted({{"grid/scene-triangles-9800", {8, 5}, merge}, {"grid/scene-triangles-980000", {8, 5, 1, 700}, merge}});
   for (const std::size_t triangles : {400u, 1'100'000u})
     if (const std::string name = "grid/bake-" + std::to_string(triangles); wanted(name))
       bench_bake(name, triangles, report);

@@ -13,6 +13,7 @@ namespace understory {
 inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
 }  // namespace understory
 #include "kernels/shared/running_cone.h"
+#include "kernels/shared/seen_directions.h"
 #undef understory
 
 namespace understory {
@@ -24,11 +25,17 @@ double exact_grid_cone(const std::vector<ExactOccluded>& bodies, glm::dvec3 n, c
                           : rule == "merge" ? visibility_merge
                                             : visibility_multiply;
   RunningCone running = no_cone();
+  SeenDirections seen;
+  see_all(&seen);
   for (const ExactOccluded& body : bodies) {
     const Occluded here = {body.share, body.direction.x, body.direction.y, body.direction.z};
-    const RunningCone next = clip_cone(paper ? opaque_cone(here) : spread_cone(here), n.x, n.y, n.z);
-    if (next.cosine > 1e-6) combine(&running, next);
+    const Cone cone = paper ? opaque_cone(here) : spread_cone(here);
+    const RunningCone next = clip_cone(cone, n.x, n.y, n.z);
+    if (next.cosine <= 1e-6) continue;
+    combine(&running, next);
+    cover(&seen, tangents_of(n.x, n.y, n.z), n.x, n.y, n.z, cone, next.cosine);
   }
+  if (rule == "union") return as_visibility(share_seen(&seen));
   return as_visibility(visibility(running, n.x, n.y, n.z));
 }
 

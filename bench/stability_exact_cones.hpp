@@ -13,7 +13,7 @@ struct ExactOccluded {
   glm::dvec3 direction{0};
 };
 
-/// V of `grid-cone` (`paper`: of `grid-cone-paper`) under the rule multiply, simple or merge.
+/// V of `grid-cone` (`paper`: of `grid-cone-paper`) under the rule multiply, simple, merge or union.
 double exact_grid_cone(const std::vector<ExactOccluded>& bodies, glm::dvec3 normal, const std::string& rule,
                        bool paper);
 

@@ -79,11 +79,13 @@ struct ExactGrid {
   bool look_up(glm::dvec3 position, ExactOccluded& o) const {
     glm::dvec3 at;
     for (int row = 0; row < 3; ++row) {
-      at[row] = double(record.to_grid[4 * row + 3]);
-      for (int axis = 0; axis < 3; ++axis) at[row] += double(record.to_grid[4 * row + axis]) * position[axis];
+      at[row] = double(record.to_box[4 * row + 3]);
+      for (int axis = 0; axis < 3; ++axis) at[row] += double(record.to_box[4 * row + axis]) * position[axis];
     }
+    if (!glm::all(glm::lessThanEqual(glm::abs(at), glm::dvec3(1)))) return false;
     const glm::dvec3 last(record.width - 1, record.height - 1, record.depth - 1);
-    if (!glm::all(glm::greaterThanEqual(at, glm::dvec3(0))) || !glm::all(glm::lessThanEqual(at, last))) return false;
+    const double stretch = double(record.stretch);
+    at = 0.5 * last * (1.0 + at * (1 + stretch) / (1.0 + stretch * glm::abs(at)));
     o.share = mixed(cone ? 3 : 0, at) / 255;
     if (!cone) return true;
     glm::dvec3 mean;
@@ -284,6 +286,7 @@ std::vector<StabilityCase> grid_stability(std::size_t samples) {
                                 {"grid-cone", "multiply"},
                                 {"grid-cone", "simple"},
                                 {"grid-cone", "merge"},
+                                {"grid-cone", "union"},
                                 {"grid-cone-paper", "multiply", true},
                                 {"grid-cone-paper", "merge", true}};
   std::vector<StabilityCase> all;

@@ -18,7 +18,7 @@ constexpr const char* tree_methods[] = {"ambient",    "reeves-blau",       "sphe
                                         "crown-baked"};
 constexpr const char* grass_methods[] = {"ambient", "grass-height", "grass-transmittance"};
 constexpr const char* sphere_methods[] = {"solid-angle", "solid-angle-exact", "solid-angle-cosine"};
-constexpr const char* cone_rules[] = {"multiply", "simple", "merge"};
+constexpr const char* cone_rules[] = {"multiply", "simple", "merge", "union"};
 constexpr int grid_sizes[] = {16, 32};
 constexpr int coarse_blur = 2;  // pixels
 

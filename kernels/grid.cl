@@ -4,7 +4,6 @@
 // 1 - clamp(2 ao' - 1), or with -DSELF_PAPER the paper's half of it; ao' is taken as before the border's rescale.
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
-#include "kernels/shared/fragment_tiles.h"
 #include "kernels/shared/grid_lookup.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/shading_sphere.h"
@@ -24,21 +23,19 @@ kernel void shade_grid(global const float* position_x, global const float* posit
                        global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const uint tile = tile_of_unit(i * W / UNIT, row_length);
-  const int all = listed[tile] == ALL_GRIDS;
-  const uint count = all ? grid_count : listed[tile];
+  const TileGrids here = grids_of_item(listed, capacity, row_length, grid_count, i);
   const real x = LOAD(position_x, i), y = LOAD(position_y, i), z = LOAD(position_z, i);
   const truth drawn =
       ((LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
-  if (count == 0 || !ANY(drawn)) {
+  if (here.count == 0 || !ANY(drawn)) {
     STORE(REAL(1.0), visibility, i);
     return;
   }
   const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
   real v = REAL(1.0);
   truth border = (truth)(0);
-  for (uint j = 0; j < count; ++j) {
-    global const GridRecord* grid = grids + (all ? j : lists[tile * capacity + j]);
+  for (uint j = 0; j < here.count; ++j) {
+    global const GridRecord* grid = grids + grid_of_tile(here, lists, j);
     const GridPoint p = grid_point(grid, x, y, z);
     const truth inside = p.inside & drawn;
     if (!ANY(inside)) continue;

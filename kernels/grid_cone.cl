@@ -1,14 +1,15 @@
 // `grid-cone`: the cone of directions that each body near a fragment occludes, looked up in its grid, clipped by the
 // fragment's tangent plane and put together with the others' (Malmer et al. 2005 section 5). V_c. A body's own fragments
 // need no rule of their own: what it occludes below their plane is clipped away.
-// -DCOMBINE=multiply, simple or merge (shared/running_cone.h). -DPAPER_CONE: every cone is opaque, as in the paper.
+// -DCOMBINE=multiply, simple or merge (shared/running_cone.h); -DUNION: V is what the cones leave of some directions
+// (shared/seen_directions.h), whatever the running cone is. -DPAPER_CONE: every cone is opaque, as in the paper.
 // -DCONES: stores the running cone as well, for the light of an environment (section 5.3).
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
-#include "kernels/shared/fragment_tiles.h"
 #include "kernels/shared/grid_lookup.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/running_cone.h"
+#include "kernels/shared/seen_directions.h"
 #include "kernels/shared/shading_sphere.h"
 #include "kernels/shared/tile_grids.h"
 #include "kernels/shared/validity.h"
@@ -38,6 +39,19 @@ SHARED Cone cone_for(const Occluded o, truth own) {
 #define STORE_CONE(cone, blocked)
 #endif
 
+#ifdef UNION
+#define SEE_ALL(a, b, c)   \
+  SeenDirections seen;     \
+  see_all(&seen);          \
+  const Tangents tangents = tangents_of(a, b, c)
+#define COVER(cone, share) cover(&seen, tangents, a, b, c, cone, share)
+#define VISIBILITY(running) share_seen(&seen)
+#else
+#define SEE_ALL(a, b, c)
+#define COVER(cone, share)
+#define VISIBILITY(running) JOIN(visibility_, COMBINE)(running, a, b, c)
+#endif
+
 kernel void shade_grid_cone(global const float* position_x, global const float* position_y,
                             global const float* position_z, global const float* normal_x, global const float* normal_y,
                             global const float* normal_z, global const uint* owner, global const int* owner_group,
@@ -46,13 +60,11 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
                             uint items, global float* visibility, global uint* validity CONE_PLANES) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const uint tile = tile_of_unit(i * W / UNIT, row_length);
-  const int all = listed[tile] == ALL_GRIDS;
-  const uint count = all ? grid_count : listed[tile];
+  const TileGrids here = grids_of_item(listed, capacity, row_length, grid_count, i);
   const real x = LOAD(position_x, i), y = LOAD(position_y, i), z = LOAD(position_z, i);
   const truth drawn =
       ((LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
-  if (count == 0 || !ANY(drawn)) {
+  if (here.count == 0 || !ANY(drawn)) {
     STORE(REAL(1.0), visibility, i);
     STORE_CONE(no_cone(), REAL(0.0));
     return;
@@ -60,24 +72,27 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
   const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
   const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
   RunningCone running = no_cone();
+  SEE_ALL(a, b, c);
   truth border = (truth)(0);
-  for (uint j = 0; j < count; ++j) {
-    global const GridRecord* grid = grids + (all ? j : lists[tile * capacity + j]);
+  for (uint j = 0; j < here.count; ++j) {
+    global const GridRecord* grid = grids + grid_of_tile(here, lists, j);
     const GridPoint p = grid_point(grid, x, y, z);
     const truth inside = p.inside & drawn;
     if (!ANY(inside)) continue;
     const truth own = (group == (whole)(grid->group)) & (group >= 0);
     const Occluded o = to_world(grid, look_up_cone(grid, samples, p));
-    const RunningCone next = clip_cone(cone_for(o, own), a, b, c);
+    const Cone cone = cone_for(o, own);
+    const RunningCone next = clip_cone(cone, a, b, c);
     const truth some = inside & (next.cosine > REAL(1e-6));
+    COVER(cone, PICK(some, next.cosine, REAL(0.0)));
     RunningCone both = running;
     JOIN(combine_, COMBINE)(&both, next);
     running = pick_cone(some, both, running);
     border |= p.border & drawn;
   }
-  const real v = JOIN(visibility_, COMBINE)(running, a, b, c);
-  const real seen = PICK(drawn, as_visibility(v), REAL(1.0));
-  STORE(seen, visibility, i);
-  STORE_CONE(running, REAL(1.0) - seen);
+  const real v = VISIBILITY(running);
+  const real open = PICK(drawn, as_visibility(v), REAL(1.0));
+  STORE(open, visibility, i);
+  STORE_CONE(running, REAL(1.0) - open);
   if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
 }

@@ -11,17 +11,16 @@
 
 /// The tile's box, taken into the grid's frame, meets the grid's box.
 SHARED int box_meets_grid(global const GridRecord* grid, const float low[3], const float high[3]) {
-  const float last[3] = {(float)grid->width - 1.0f, (float)grid->height - 1.0f, (float)grid->depth - 1.0f};
   int meets = 1;
   for (int row = 0; row < 3; ++row) {
-    float middle = grid->to_grid[4 * row + 3], reach = 0.0f;
+    float middle = grid->to_box[4 * row + 3], reach = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
-      const float factor = grid->to_grid[4 * row + axis];
+      const float factor = grid->to_box[4 * row + axis];
       middle = fma(factor, 0.5f * (low[axis] + high[axis]), middle);
       reach = fma(fabs(factor), 0.5f * (high[axis] - low[axis]), reach);
     }
-    reach = fma(reach, 1.0001f, 1e-3f);  // rounding keeps a fragment on the border in
-    meets &= middle + reach >= 0.0f && middle - reach <= last[row];
+    // Rounding keeps a fragment on the border in.
+    meets &= fabs(middle) <= fma(reach, 1.0001f, 1.0001f);
   }
   return meets;
 }

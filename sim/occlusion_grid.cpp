@@ -66,7 +66,10 @@ std::uint8_t snorm8(float value) {
 glm::vec3 OcclusionGrid::position(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
   const glm::vec3 last(static_cast<float>(size[0] - 1), static_cast<float>(size[1] - 1),
                        static_cast<float>(size[2] - 1));
-  return low + (high - low) * (glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) / last);
+  const glm::vec3 part = glm::vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) / last;
+  if (stretch == 0) return low + (high - low) * part;
+  const glm::vec3 s = 2.0f * part - 1.0f;
+  return 0.5f * (low + high) + 0.5f * (high - low) * s / (1.0f + stretch * (1.0f - glm::abs(s)));
 }
 
 OccludedDirections occluded_at(const OcclusionGrid& grid, glm::dvec3 position) {
@@ -74,8 +77,9 @@ OccludedDirections occluded_at(const OcclusionGrid& grid, glm::dvec3 position) {
   double part[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double low = grid.low[axis], high = grid.high[axis], last = grid.size[axis] - 1;
-    const double at = (position[axis] - low) / (high - low) * last;
-    if (!(at >= 0 && at <= last)) return {};
+    const double u = (2 * position[axis] - low - high) / (high - low), more = grid.stretch;
+    const double at = 0.5 * (1 + u * (1 + more) / (1 + more * std::abs(u))) * last;
+    if (!(std::abs(u) <= 1)) return {};
     first[axis] = static_cast<std::uint32_t>(std::min(std::floor(at), last - 1));
     part[axis] = at - first[axis];
   }
@@ -141,6 +145,15 @@ void fill_inside(OcclusionGrid& grid) {
     for (const std::size_t i : filled) known[i] = 1;
     inside = std::move(left);
   }
+}
+
+float faded_from(const OcclusionGrid& grid) {
+  float from = 0.875f;
+  for (const std::uint32_t size : grid.size) {
+    const float s = 1 - 2 / static_cast<float>(size - 1);
+    from = std::min(from, s / (1 + grid.stretch * (1 - s)));
+  }
+  return std::max(from, 0.0f);
 }
 
 void open_border(OcclusionGrid& grid, GridBorder how) {

@@ -15,8 +15,9 @@ using GridSize = std::array<std::uint32_t, 3>;
 inline constexpr std::uint32_t least_grid_size = 2, largest_grid_size = 512;
 
 /// How occlusion ends at the border. `fade`: the traced values, times a weight that falls to 0 over the outer 1/16 of
-/// the box. `rescale`: the paper's section 3.3.2, max(0, (a - M)/(1 - M)) with M the largest value on the faces, which
-/// takes M from every value in the box: four times the error (tests/kernels/grid_accuracy_test.cpp).
+/// the box, or from its last sample but one. `rescale`: the paper's section 3.3.2, max(0, (a - M)/(1 - M)) with M the
+/// largest value on the faces, which takes M from every value in the box: four times the error
+/// (tests/kernels/grid_accuracy_test.cpp).
 enum class GridBorder { fade, rescale };
 
 /// Occluded directions at one point: their share of the full sphere, eq. 5, in [0, 1], and their mean direction times
@@ -27,12 +28,16 @@ struct OccludedDirections {
   glm::vec3 direction{0};
 };
 
+/// Along each axis, u in [-1, 1] across the box, sample i of n stands where 2 i / (n - 1) - 1 = u (1 + stretch) / (1 +
+/// stretch |u|): 1 + stretch times as dense in the middle as even spacing, that much sparser at the faces. Far from a
+/// body occlusion is smooth and falls with the square of distance, so few samples serve; near it every one is wanted.
 struct OcclusionGrid {
   GridSize size{0, 0, 0};
   glm::vec3 low{0}, high{0};         // the box, m, frame of the body
   float border = 0;                  // M of the rescale, or 0: share before it = share (1 - border) + border
   std::vector<float> share;          // x fastest, then y, then z
   std::vector<glm::vec3> direction;  // the same order; empty in a scalar grid
+  float stretch = 0;                 // how samples crowd about the middle, see below; 0: evenly spread
   std::size_t samples() const { return std::size_t(size[0]) * size[1] * size[2]; }
   bool has_direction() const { return !direction.empty(); }
   glm::vec3 position(std::uint32_t x, std::uint32_t y, std::uint32_t z) const;
@@ -52,6 +57,9 @@ Box grid_extent(const Box& body, double epsilon);
 /// Section 3.3.3: samples whose share is 1 (every ray blocked) take the mean of those of their 26 neighbours that
 /// are not, layer by layer until none is left. A grid that is blocked everywhere stays as it is.
 void fill_inside(OcclusionGrid& grid);
+
+/// |u| from which `fade` acts: 7/8, or the last sample but one along some axis.
+float faded_from(const OcclusionGrid& grid);
 
 /// Makes the border open.
 void open_border(OcclusionGrid& grid, GridBorder how);

@@ -181,9 +181,11 @@ struct NearField {
 
 /// How the grids of moving occluders are baked (host/trace/grid_bake.hpp).
 struct GridChoice {
-  int size = 32;          // samples per axis
-  double epsilon = 0.02;  // eq. 4 of Malmer et al. 2005. They take 0.1; what bodies of many parts shade reaches further
-  int rays = 256;         // per sample
+  int size = 32;  // samples per axis
+  double epsilon =
+      0.003;           // eq. 4 of Malmer et al. 2005. They take 0.1; what bodies of many parts shade reaches further
+  double stretch = 2;  // how samples crowd about the middle (sim/occlusion_grid.hpp)
+  int rays = 256;      // per sample
 };
 
 /// Which model shades what; names as users type them (DESIGN.md, "Words").
@@ -195,7 +197,7 @@ struct Methods {
   /// How crowns shade others: solid-angle, -exact, -cosine, crown-shells, none.
   std::string crowns = "solid-angle-cosine";
   std::string occluders = "solid-angle-cosine";  // solid-angle, -exact, -cosine, grid, grid-cone, none
-  std::string combine = "merge";                 // how `grid-cone` puts occluders together: multiply, simple, merge
+  std::string combine = "union";  // how `grid-cone` puts occluders together: multiply, simple, merge, union
   GridChoice grid = {};
   std::string near = "none";  // obscurance-point, obscurance-line, obscurance-area, none
   NearField near_field = {};  // of `near`

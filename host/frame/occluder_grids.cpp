@@ -45,6 +45,7 @@ GridSettings settings_of(const Methods& methods, bool cone) {
   GridSettings settings;
   settings.size.fill(static_cast<std::uint32_t>(methods.grid.size));
   settings.epsilon = methods.grid.epsilon;
+  settings.stretch = methods.grid.stretch;
   settings.rays = static_cast<std::uint32_t>(methods.grid.rays);
   settings.cone = cone;
   return settings;
@@ -123,14 +124,15 @@ OccluderGrids::OccluderGrids(Device& device, const World& world, const Methods& 
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const OcclusionGrid& grid = grids[found.grid[p]];
     Part& part = parts_[p];
-    part.low = grid.low;
-    const glm::vec3 cells(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
-    part.per_metre = cells / (grid.high - grid.low);
+    part.middle = 0.5f * (grid.low + grid.high);
+    part.half = 0.5f * (grid.high - grid.low);
     part.record.first = first[found.grid[p]];
     part.record.width = grid.size[0];
     part.record.height = grid.size[1];
     part.record.depth = grid.size[2];
     part.record.border = grid.border;
+    part.record.stretch = grid.stretch;
+    part.record.faded_from = faded_from(grid);
   }
   table_ = std::make_unique<GridTable>(device, samples);
   if (cone && cone_fragments > 0) cones_ = std::make_unique<ConePlanes>(allocate_cones(device, cone_fragments));
@@ -148,14 +150,14 @@ std::vector<GridRecord> OccluderGrids::records_at(const Pose& pose) const {
     const double scale = std::cbrt(std::abs(glm::determinant(linear)));
     GridRecord record = part.record;
     for (int row = 0; row < 3; ++row) {
-      const double per_metre = double(part.per_metre[row]);
-      double constant = -double(part.low[row]);
+      const double per_metre = 1 / double(part.half[row]);
+      double constant = -double(part.middle[row]);
       for (int axis = 0; axis < 3; ++axis) {
-        record.to_grid[4 * row + axis] = static_cast<float>(per_metre * to_part[axis][row]);
+        record.to_box[4 * row + axis] = static_cast<float>(per_metre * to_part[axis][row]);
         record.axes[4 * row + axis] = static_cast<float>(linear[axis][row] / scale);
         constant -= to_part[axis][row] * to_scene[3][axis];
       }
-      record.to_grid[4 * row + 3] = static_cast<float>(per_metre * constant);
+      record.to_box[4 * row + 3] = static_cast<float>(per_metre * constant);
     }
     records.push_back(record);
   }

@@ -30,7 +30,7 @@ class OccluderGrids {
   struct Part {
     std::size_t instance = 0, limb = 0;
     GridRecord record{};
-    glm::vec3 low{0}, per_metre{0};  // of its grid: corner, m, and samples per metre
+    glm::vec3 middle{0}, half{0};  // of its grid's box: centre and half-extents, m
   };
   std::vector<GridRecord> records_at(const Pose& pose) const;
 

@@ -49,7 +49,7 @@ void check_names(const Methods& methods) {
   require_known("occluders", methods.occluders,
                 {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "grid", "grid-self-paper", "grid-cone",
                  "grid-cone-paper", "none"});
-  require_known("combine", methods.combine, {"multiply", "simple", "merge"});
+  require_known("combine", methods.combine, {"multiply", "simple", "merge", "union"});
   require_known("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"});
 }
 

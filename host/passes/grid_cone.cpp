@@ -11,9 +11,10 @@ namespace {
 std::string cone_options(const std::string& method, const std::string& combine) {
   if (method != "grid-cone" && method != "grid-cone-paper")
     throw Error(ErrorKind::unexpected, "method '" + method + "' is not one of grid-cone, grid-cone-paper");
-  if (combine != "multiply" && combine != "simple" && combine != "merge")
-    throw Error(ErrorKind::unexpected, "combining rule '" + combine + "' is not one of multiply, simple, merge");
-  return " -DCOMBINE=" + combine + (method == "grid-cone-paper" ? " -DPAPER_CONE" : "");
+  if (combine != "multiply" && combine != "simple" && combine != "merge" && combine != "union")
+    throw Error(ErrorKind::unexpected, "combining rule '" + combine + "' is not one of multiply, simple, merge, union");
+  return " -DCOMBINE=" + (combine == "union" ? "merge -DUNION" : combine) +
+         (method == "grid-cone-paper" ? " -DPAPER_CONE" : "");
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace understory {
 
 class GridConePass {
  public:
-  /// `method`: grid-cone, or grid-cone-paper; `combine`: multiply, simple or merge (kernels/shared/running_cone.h).
+  /// `method`: grid-cone, or grid-cone-paper; `combine`: multiply, simple or merge (kernels/shared/running_cone.h),
+  /// or union (kernels/shared/seen_directions.h).
   /// `cones`: run fills cone planes. Throws Error(unexpected) for other names.
   GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes = 0,
                bool cones = false);

@@ -18,13 +18,11 @@ struct Bounds {
 };
 
 Bounds bounds_of(const GridRecord& record) {
-  const float* m = record.to_grid;
-  const glm::dmat3 to_grid(glm::dvec3(m[0], m[4], m[8]), glm::dvec3(m[1], m[5], m[9]), glm::dvec3(m[2], m[6], m[10]));
-  const glm::dmat3 to_scene = glm::inverse(to_grid);
-  const glm::dvec3 half = 0.5 * glm::dvec3(record.width - 1, record.height - 1, record.depth - 1);
-  const glm::dvec3 centre = to_scene * (half - glm::dvec3(m[3], m[7], m[11]));
-  glm::dvec3 reach(0);
-  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(to_scene[axis]) * half[axis];
+  const float* m = record.to_box;
+  const glm::dmat3 to_box(glm::dvec3(m[0], m[4], m[8]), glm::dvec3(m[1], m[5], m[9]), glm::dvec3(m[2], m[6], m[10]));
+  const glm::dmat3 to_scene = glm::inverse(to_box);
+  const glm::dvec3 centre = -(to_scene * glm::dvec3(m[3], m[7], m[11]));
+  glm::dvec3 reach = glm::abs(to_scene[0]) + glm::abs(to_scene[1]) + glm::abs(to_scene[2]);
   reach = reach * 1.0001 + 1e-4;
   return {centre - reach, centre + reach};
 }

@@ -17,7 +17,7 @@ namespace understory {
 namespace {
 
 constexpr std::uint32_t least_rays = 16, most_rays = 65536;
-constexpr double least_epsilon = 1e-3, largest_epsilon = 1;
+constexpr double least_epsilon = 1e-3, largest_epsilon = 1, largest_stretch = 8;
 
 /// Where a body is, for aiming.
 struct Ball {
@@ -114,6 +114,9 @@ void check_settings(const GridSettings& settings) {
   if (!(settings.epsilon >= least_epsilon && settings.epsilon <= largest_epsilon))
     throw Error(ErrorKind::invalid_input,
                 fmt::format("epsilon {}: allowed are {} to {}", settings.epsilon, least_epsilon, largest_epsilon));
+  if (!(settings.stretch >= 0 && settings.stretch <= largest_stretch))
+    throw Error(ErrorKind::invalid_input,
+                fmt::format("stretch {}: allowed are 0 to {}", settings.stretch, largest_stretch));
   if (settings.rays < least_rays || settings.rays > most_rays)
     throw Error(ErrorKind::invalid_input,
                 fmt::format("{} rays per sample: allowed are {} to {}", settings.rays, least_rays, most_rays));
@@ -138,6 +141,7 @@ OcclusionGrid bake_grid(std::span<const glm::vec3> vertices, std::span<const std
   grid.size = settings.size;
   grid.low = glm::vec3(extent.low);
   grid.high = glm::vec3(extent.high);
+  grid.stretch = static_cast<float>(settings.stretch);
   if (!glm::all(glm::lessThan(grid.low, grid.high)))
     throw Error(ErrorKind::invalid_input, "the mesh has no area: all of its vertices lie on a line or in a point");
   grid.share.resize(grid.samples());

@@ -12,6 +12,7 @@ namespace understory {
 struct GridSettings {
   GridSize size{32, 32, 32};
   double epsilon = 0.1;      // eq. 4: the share that may be neglected at the border
+  double stretch = 0;        // of OcclusionGrid, [0, 8]
   std::uint32_t rays = 256;  // per sample
   std::uint64_t seed = 1;
   GridBorder border = GridBorder::fade;

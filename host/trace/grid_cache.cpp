@@ -8,7 +8,7 @@ namespace understory {
 namespace {
 
 /// Raised whenever the same mesh and settings give another grid, or the layout of its bytes changes.
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 ContentHash hash_of(std::span<const glm::vec3> vertices, std::span<const std::uint32_t> triangles,
                     const GridSettings& settings) {
@@ -18,6 +18,7 @@ ContentHash hash_of(std::span<const glm::vec3> vertices, std::span<const std::ui
   hash.add(triangles);
   hash.add(std::span<const std::uint32_t>(settings.size));
   hash.add(settings.epsilon);
+  hash.add(settings.stretch);
   hash.add(settings.rays);
   hash.add(settings.seed);
   hash.add(static_cast<int>(settings.border));
@@ -31,6 +32,7 @@ void for_each_block(Grid& grid, const Visit& visit) {
   visit(&grid.low, sizeof(grid.low));
   visit(&grid.high, sizeof(grid.high));
   visit(&grid.border, sizeof(grid.border));
+  visit(&grid.stretch, sizeof(grid.stretch));
   visit(grid.share.data(), grid.share.size() * sizeof(grid.share[0]));
   visit(grid.direction.data(), grid.direction.size() * sizeof(glm::vec3));
 }

@@ -10,20 +10,28 @@
 typedef struct {
   real x, y, z;   // in samples
   truth inside;   // the box holds it; false for what is not a number
-  truth border;   // inside, but within 1/16 of the box's edges from a face, where occlusion has been faded
+  truth border;   // inside, but so near a face that occlusion has been faded
 } GridPoint;
 
 SHARED GridPoint grid_point(global const GridRecord* grid, real x, real y, real z) {
-  const global float* m = grid->to_grid;
+  const global float* m = grid->to_box;
+  const real u = fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), (real)(m[3]))));
+  const real v = fma(x, (real)(m[4]), fma(y, (real)(m[5]), fma(z, (real)(m[6]), (real)(m[7]))));
+  const real w = fma(x, (real)(m[8]), fma(y, (real)(m[9]), fma(z, (real)(m[10]), (real)(m[11]))));
+  const real far_u = fabs(u), far_v = fabs(v), far_w = fabs(w);
   GridPoint p;
-  p.x = fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), (real)(m[3]))));
-  p.y = fma(x, (real)(m[4]), fma(y, (real)(m[5]), fma(z, (real)(m[6]), (real)(m[7]))));
-  p.z = fma(x, (real)(m[8]), fma(y, (real)(m[9]), fma(z, (real)(m[10]), (real)(m[11]))));
-  const float a = (float)grid->width - 1.0f, b = (float)grid->height - 1.0f, c = (float)grid->depth - 1.0f;
-  // Distance from the nearest face along each axis.
-  const real dx = at_most(p.x, (real)(a)-p.x), dy = at_most(p.y, (real)(b)-p.y), dz = at_most(p.z, (real)(c)-p.z);
-  p.inside = (dx >= REAL(0.0)) & (dy >= REAL(0.0)) & (dz >= REAL(0.0));
-  p.border = p.inside & ((dx < (real)(0.0625f * a)) | (dy < (real)(0.0625f * b)) | (dz < (real)(0.0625f * c)));
+  p.inside = (far_u <= REAL(1.0)) & (far_v <= REAL(1.0)) & (far_w <= REAL(1.0));
+  const real faded = (real)(grid->faded_from);
+  p.border = p.inside & ((far_u > faded) | (far_v > faded) | (far_w > faded));
+  // Samples crowd about the middle: u (1 + stretch) / (1 + stretch |u|) of the way to the last one. One division for three.
+  const real stretch = (real)(grid->stretch);
+  const real a = fma(stretch, far_u, REAL(1.0)), b = fma(stretch, far_v, REAL(1.0)), c = fma(stretch, far_w, REAL(1.0));
+  const real scale = (REAL(1.0) + stretch) / (a * b * c);
+  const real i = (real)(0.5f * ((float)grid->width - 1.0f)), j = (real)(0.5f * ((float)grid->height - 1.0f));
+  const real k = (real)(0.5f * ((float)grid->depth - 1.0f));
+  p.x = fma(u * (b * c), scale * i, i);
+  p.y = fma(v * (a * c), scale * j, j);
+  p.z = fma(w * (a * b), scale * k, k);
   return p;
 }
 

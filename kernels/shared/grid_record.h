@@ -13,13 +13,14 @@ typedef std::uint32_t grid_uint;
 #endif
 
 typedef struct {
-  float to_grid[12];                // 3x4, row-major: camera-relative metres to samples, [0, size - 1] within the box
+  float to_box[12];                 // 3x4, row-major: camera-relative metres to [-1, 1] along each axis of the box
   float axes[12];                   // 3x3, rows padded to 4: directions of the body's frame to world axes, a rotation
   grid_uint first;                  // its first sample in the table
   grid_uint width, height, depth;   // samples per axis, at least 2
   grid_int group;                   // Owner::group of the part: its fragments are shaded by what rises above their plane
   float border;                     // M of the border's rescale (sim/occlusion_grid.hpp)
-  float padding_[2];
+  float stretch;                    // >= 0: how samples crowd about the box's middle (sim/occlusion_grid.hpp)
+  float faded_from;                 // |u| along an axis of the box from which occlusion has been faded
 } GridRecord;                       // 128 bytes
 
 #ifndef __OPENCL_C_VERSION__

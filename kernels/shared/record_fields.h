@@ -34,9 +34,9 @@
   field(GroundCoverGrid, low_x) field(GroundCoverGrid, low_y) field(GroundCoverGrid, cells_per_metre_x)             \
   field(GroundCoverGrid, cells_per_metre_y) field(GroundCoverGrid, columns) field(GroundCoverGrid, rows)            \
   field(GroundCoverGrid, padding_) record(GroundCoverGrid)                                                          \
-  field(GridRecord, to_grid) field(GridRecord, axes) field(GridRecord, first) field(GridRecord, width)              \
+  field(GridRecord, to_box) field(GridRecord, axes) field(GridRecord, first) field(GridRecord, width)              \
   field(GridRecord, height) field(GridRecord, depth) field(GridRecord, group) field(GridRecord, border)             \
-  field(GridRecord, padding_) record(GridRecord)                                                                    \
+  field(GridRecord, stretch) field(GridRecord, faded_from) record(GridRecord)                                                                    \
   field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
   field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
   field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, distant) field(TileOcclusion, close)       \

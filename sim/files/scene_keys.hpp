@@ -332,10 +332,11 @@ void keys(Archive& a, Methods& methods) {
   a.word("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"},
          "near field, from depth and normals");
   a.record("near_field", methods.near_field, "how `near` samples");
-  a.word("combine", methods.combine, {"multiply", "simple", "merge"}, "how grid-cone puts occluders together");
+  a.word("combine", methods.combine, {"multiply", "simple", "merge", "union"}, "how grid-cone puts occluders together");
   a.section("grid", "how the grids of moving occluders are baked", [&](auto& grid) {
     grid.integer("size", methods.grid.size, 2, 512, "samples per axis");
     grid.number("epsilon", methods.grid.epsilon, {0.001, 1, ""}, "share of the sphere that its border may neglect");
+    grid.number("stretch", methods.grid.stretch, {0, 8, ""}, "how samples crowd about the body; 0: evenly spread");
     grid.integer("rays", methods.grid.rays, 16, 65536, "rays per sample");
   });
   a.number("ambient", methods.ambient, zero_to(1), "the constant of method `ambient`");

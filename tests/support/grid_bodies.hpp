@@ -20,14 +20,14 @@ struct GridBody {
     GridRecord r{};
     const glm::dmat3 to_body = glm::transpose(rotation);
     for (int row = 0; row < 3; ++row) {
-      const double scale = (grid.size[static_cast<std::size_t>(row)] - 1) / double(grid.high[row] - grid.low[row]);
-      double constant = -double(grid.low[row]);
+      const double scale = 2 / double(grid.high[row] - grid.low[row]);
+      double constant = -0.5 * double(grid.low[row] + grid.high[row]);
       for (int axis = 0; axis < 3; ++axis) {
-        r.to_grid[4 * row + axis] = static_cast<float>(scale * to_body[axis][row]);
+        r.to_box[4 * row + axis] = static_cast<float>(scale * to_body[axis][row]);
         r.axes[4 * row + axis] = static_cast<float>(rotation[axis][row]);
         constant -= to_body[axis][row] * position[axis];
       }
-      r.to_grid[4 * row + 3] = static_cast<float>(scale * constant);
+      r.to_box[4 * row + 3] = static_cast<float>(scale * constant);
     }
     r.first = first;
     r.width = grid.size[0];
@@ -35,6 +35,8 @@ struct GridBody {
     r.depth = grid.size[2];
     r.group = group;
     r.border = grid.border;
+    r.stretch = grid.stretch;
+    r.faded_from = faded_from(grid);
     return r;
   }
 };

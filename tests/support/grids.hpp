@@ -42,13 +42,16 @@ inline GridSettings coarse(GridSize size = {9, 10, 11}) {
   return settings;
 }
 
-/// Some bodies near the origin, turned any way, of groups 0, 1, ...
+/// Some bodies near the origin, turned any way, of groups 0, 1, ...; the table's samples crowd about its middle.
 inline std::vector<GridBody> random_bodies(std::size_t count, GridBorder border = GridBorder::fade) {
   GridSettings settings = coarse();
   settings.border = border;
   const TestMesh meshes[] = {cube(), table(), TestMesh().add(ellipsoid_part({0.5, 1, 1.4}))};
   std::vector<OcclusionGrid> grids;
-  for (const TestMesh& mesh : meshes) grids.push_back(bake_grid(mesh.vertices, mesh.triangles, settings));
+  for (const TestMesh& mesh : meshes) {
+    settings.stretch = grids.size() == 1 ? 2 : 0;
+    grids.push_back(bake_grid(mesh.vertices, mesh.triangles, settings));
+  }
   std::vector<GridBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     Random random(7, stream_of("grid body"), i);

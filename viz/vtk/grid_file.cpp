@@ -70,6 +70,8 @@ vtkDataArray* array_of(vtkImageData* image, const char* name, int components, st
 }  // namespace
 
 void write_grid(const std::filesystem::path& path, const OcclusionGrid& grid, GridEncoding encoding) {
+  if (grid.stretch != 0)
+    throw Error(ErrorKind::unexpected, path.string() + ": image data hold evenly spread samples only");
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(grid.size[0]), static_cast<int>(grid.size[1]), static_cast<int>(grid.size[2]));
   const glm::dvec3 cells(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
