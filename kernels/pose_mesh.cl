@@ -1,5 +1,6 @@
 // Moves the rest vertices of every instance to where they are at time t: leaf flutter, then the bend of the limb,
 // then the limb's rigid transform (records.h, LimbPose). One work-item poses W vertices of one block of 16.
+// With -DTHINNED the leaves of each block are first enlarged about their middles.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/pose_limb.h"
 #include "kernels/shared/posed_vertices.h"
@@ -8,7 +9,13 @@
 kernel void pose_mesh(global const float* rest_x, global const float* rest_y, global const float* rest_z,
                       global const char* flutter_x, global const char* flutter_y, global const char* flutter_z,
                       global const uchar* flutter_phase, global const PosedBlock* blocks, global const LimbPose* limbs,
-                      global float4* posed, uint items) {
+                      global float4* posed, uint items
+#ifdef THINNED
+                      ,
+                      global const float* pivot_x, global const float* pivot_y, global const float* pivot_z,
+                      global const float* block_scale
+#endif
+) {
   const size_t i = get_global_id(0);
   if (i >= items) return;
   const uint per_block = 16 / W;
@@ -17,6 +24,13 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   global const LimbPose* limb = limbs + block.limb_pose;
 
   real px = LOAD(rest_x, rest), py = LOAD(rest_y, rest), pz = LOAD(rest_z, rest);
+#ifdef THINNED
+  const real scale = (real)(block_scale[i / per_block]);
+  const real mx = LOAD(pivot_x, rest), my = LOAD(pivot_y, rest), mz = LOAD(pivot_z, rest);
+  px = fma(scale, px - mx, mx);
+  py = fma(scale, py - my, my);
+  pz = fma(scale, pz - mz, mz);
+#endif
   const real turns = LOAD_BYTE(flutter_phase, rest) * REAL(0.00390625) + (real)(limb->flutter_phase * 0.15915494f);
   const real swing = (real)(limb->flutter_amplitude) * sine_of_turns(turns);
   px = fma(LOAD_BYTE(flutter_x, rest), swing, px);

@@ -97,6 +97,7 @@ kernel void rasterise_mesh(global const TriangleChunk* chunks, global const uint
                            global VisibleTriangle* pixels) {
   const uint id = get_global_id(0) * W, lane = id % CHUNK;  // whatever size of work-group the device grants
   global const TriangleChunk* chunk = chunks + id / CHUNK;
+  if (lane >= chunk->count) return;
   const uint t = chunk->first_index + lane;
   const uint first = chunk->first_vertex;
   const ProjectedCorners a = project_corners(&camera, gather_posed(posed, first, index_a + t));
@@ -113,6 +114,7 @@ kernel void rasterise_grass(global const TriangleChunk* chunks, uint first_chunk
                             const CameraView camera, global VisibleTriangle* pixels) {
   const uint id = first_chunk * CHUNK + get_global_id(0) * W, lane = id % CHUNK;
   global const TriangleChunk* chunk = chunks + id / CHUNK;
+  if (lane >= chunk->count) return;
   const Corners corners = grass_corners(chunk, lane);
   const ProjectedCorners a = project_corners(&camera, load_posed(posed, corners.a));
   const ProjectedCorners b = project_corners(&camera, load_posed(posed, corners.b));

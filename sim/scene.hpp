@@ -223,6 +223,9 @@ struct Scene {
   std::vector<OccluderSource> occluders;
   EnvironmentSource environment;
   Methods methods;
+  /// What of it is drawn: brute (everything, every frame), culled (what is in view: the same pictures), thinned (and
+  /// fewer, larger leaves and blades where they are smaller than pixels).
+  std::string detail = "brute";
 };
 
 }  // namespace understory

@@ -90,63 +90,19 @@ void append_padded(std::vector<float>& plane, const std::vector<float>& values, 
   plane.insert(plane.end(), padded - values.size(), filler);
 }
 
-void upload_blades(Device& device, const World& world, Geometry& geometry) {
-  GrassBlades all;
-  std::vector<float> facing_x, facing_y;
-  std::uint32_t vertex = geometry.mesh_vertices;
-  for (const GrassBlades& field : world.grass) {
-    const std::size_t groups = (field.size() + blades_per_group - 1) / blades_per_group;
-    const std::size_t padded = groups * blades_per_group;
-    const auto first_blade = static_cast<std::uint32_t>(all.length.size());
-    geometry.fields.push_back({first_blade, static_cast<std::uint32_t>(padded), vertex});
-    append_padded(all.root_x, field.root_x, padded, 0);
-    append_padded(all.root_y, field.root_y, padded, 0);
-    append_padded(all.root_z, field.root_z, padded, 0);
-    append_padded(all.length, field.length, padded, 0);
-    append_padded(all.half_width, field.half_width, padded, 0);
-    append_padded(all.bend_x, field.bend_x, padded, 0);
-    append_padded(all.bend_y, field.bend_y, padded, 0);
-    append_padded(all.flexibility, field.flexibility, padded, 0);
-    append_padded(all.phase, field.phase, padded, 0);
-    for (std::size_t i = 0; i < padded; ++i) {
-      const float azimuth = i < field.size() ? field.facing[i] : 0.0f;
-      facing_x.push_back(std::cos(azimuth));
-      facing_y.push_back(std::sin(azimuth));
-    }
-    for (std::uint32_t group = 0; group < groups; ++group) {
-      const auto count =
-          static_cast<std::uint32_t>(std::min<std::size_t>(blades_per_group, field.size() - group * blades_per_group));
-      const std::uint32_t group_vertex = vertex + group * blades_per_group * vertices_per_blade;
+/// Five chunks of a group's triangles after another.
+void list_blade_chunks(const std::vector<GrassBlades>& fields, Geometry& geometry) {
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const FieldRange& range = geometry.fields[f];
+    for (std::uint32_t blade = 0; blade < range.blades; blade += blades_per_group) {
+      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(blades_per_group, fields[f].size() - blade));
+      const std::uint32_t group_vertex = range.first_vertex + blade * vertices_per_blade;
       for (std::uint32_t k = 0; k < triangles_per_blade; ++k)
         geometry.chunks.push_back(
-            {group_vertex + k * blades_per_group, first_blade + group * blades_per_group, count, field.owner});
+            {group_vertex + k * blades_per_group, range.first_blade + blade, count, fields[f].owner});
     }
-    vertex += static_cast<std::uint32_t>(padded * vertices_per_blade);
   }
   geometry.triangles.grass_chunks = static_cast<std::uint32_t>(geometry.chunks.size()) - geometry.triangles.mesh_chunks;
-  geometry.vertices = vertex;
-  geometry.blades = {
-      upload(device, all.root_x, "grass roots"),      upload(device, all.root_y, "grass roots"),
-      upload(device, all.root_z, "grass roots"),      upload(device, all.length, "grass lengths"),
-      upload(device, all.half_width, "grass widths"), upload(device, all.bend_x, "grass bend"),
-      upload(device, all.bend_y, "grass bend"),       upload(device, facing_x, "grass facing"),
-      upload(device, facing_y, "grass facing"),       upload(device, all.flexibility, "grass flexibility"),
-      upload(device, all.phase, "grass phase")};
-}
-
-/// Heights of the plants of a mesh whose surface is blades; nothing in a scene without any blade.
-MeshGrass upload_mesh_grass(Device& device, const World& world) {
-  const auto is_blade = [](const Owner& owner) { return owner.surface == SurfaceClass::blade; };
-  if (std::none_of(world.owners.begin(), world.owners.end(), is_blade)) return {};
-  std::vector<float> root_z(world.owners.size(), 0.0f), height(world.owners.size(), 0.0f);
-  for (const Instance& instance : world.instances)
-    for (const std::uint32_t row : instance.run_owner)
-      if (is_blade(world.owners[row])) {
-        root_z[row] = static_cast<float>(instance.position.z);
-        height[row] = static_cast<float>(instance.scale) * world.prototypes[instance.prototype].high.z;
-      }
-  return {Buffer<float>(device, std::span<const float>(root_z), "mesh grass roots"),
-          Buffer<float>(device, std::span<const float>(height), "mesh grass heights")};
 }
 
 /// Ids and vertex numbers are 32-bit on the device: refuse before any of them can wrap.
@@ -169,6 +125,53 @@ void check_sizes(const World& world) {
 }
 
 }  // namespace
+
+std::uint32_t upload_blades(Device& device, const std::vector<GrassBlades>& fields, std::uint32_t vertex,
+                            RestBlades& blades, std::vector<FieldRange>& ranges) {
+  GrassBlades all;
+  std::vector<float> facing_x, facing_y;
+  for (const GrassBlades& field : fields) {
+    const std::size_t padded = (field.size() + blades_per_group - 1) / blades_per_group * blades_per_group;
+    const auto first_blade = static_cast<std::uint32_t>(all.length.size());
+    ranges.push_back({first_blade, static_cast<std::uint32_t>(padded), vertex});
+    append_padded(all.root_x, field.root_x, padded, 0);
+    append_padded(all.root_y, field.root_y, padded, 0);
+    append_padded(all.root_z, field.root_z, padded, 0);
+    append_padded(all.length, field.length, padded, 0);
+    append_padded(all.half_width, field.half_width, padded, 0);
+    append_padded(all.bend_x, field.bend_x, padded, 0);
+    append_padded(all.bend_y, field.bend_y, padded, 0);
+    append_padded(all.flexibility, field.flexibility, padded, 0);
+    append_padded(all.phase, field.phase, padded, 0);
+    for (std::size_t i = 0; i < padded; ++i) {
+      const float azimuth = i < field.size() ? field.facing[i] : 0.0f;
+      facing_x.push_back(std::cos(azimuth));
+      facing_y.push_back(std::sin(azimuth));
+    }
+    vertex += static_cast<std::uint32_t>(padded * vertices_per_blade);
+  }
+  blades = {upload(device, all.root_x, "grass roots"),      upload(device, all.root_y, "grass roots"),
+            upload(device, all.root_z, "grass roots"),      upload(device, all.length, "grass lengths"),
+            upload(device, all.half_width, "grass widths"), upload(device, all.bend_x, "grass bend"),
+            upload(device, all.bend_y, "grass bend"),       upload(device, facing_x, "grass facing"),
+            upload(device, facing_y, "grass facing"),       upload(device, all.flexibility, "grass flexibility"),
+            upload(device, all.phase, "grass phase")};
+  return vertex;
+}
+
+MeshGrass upload_mesh_grass(Device& device, const World& world) {
+  const auto is_blade = [](const Owner& owner) { return owner.surface == SurfaceClass::blade; };
+  if (std::none_of(world.owners.begin(), world.owners.end(), is_blade)) return {};
+  std::vector<float> root_z(world.owners.size(), 0.0f), height(world.owners.size(), 0.0f);
+  for (const Instance& instance : world.instances)
+    for (const std::uint32_t row : instance.run_owner)
+      if (is_blade(world.owners[row])) {
+        root_z[row] = static_cast<float>(instance.position.z);
+        height[row] = static_cast<float>(instance.scale) * world.prototypes[instance.prototype].high.z;
+      }
+  return {Buffer<float>(device, std::span<const float>(root_z), "mesh grass roots"),
+          Buffer<float>(device, std::span<const float>(height), "mesh grass heights")};
+}
 
 std::vector<std::uint32_t> first_triangles(const World& world) {
   std::vector<std::uint32_t> starts{0};
@@ -195,7 +198,8 @@ Geometry upload_geometry(Device& device, const World& world) {
   std::vector<PosedBlock> blocks;
   lay_out_instances(world, upload_prototypes(device, world, geometry), geometry, blocks);
   geometry.blocks = upload(device, blocks, "posed blocks");
-  upload_blades(device, world, geometry);
+  geometry.vertices = upload_blades(device, world.grass, geometry.mesh_vertices, geometry.blades, geometry.fields);
+  list_blade_chunks(world.grass, geometry);
   geometry.mesh_grass = upload_mesh_grass(device, world);
   geometry.triangles.chunks = upload(device, geometry.chunks, "triangle chunks");
   if (geometry.vertices > 0)

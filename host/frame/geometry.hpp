@@ -33,6 +33,14 @@ struct Geometry {
 /// more than 2^32 triangle slots.
 Geometry upload_geometry(Device& device, const World& world);
 
+/// The blades of `fields`, each field padded to whole groups, and its place among them; first_vertex as if posed one
+/// after another from `vertex` on. Returns the vertex after the last.
+std::uint32_t upload_blades(Device& device, const std::vector<GrassBlades>& fields, std::uint32_t vertex,
+                            RestBlades& blades, std::vector<FieldRange>& ranges);
+
+/// Heights of the plants of a mesh whose surface is blades; nothing in a scene without any blade.
+MeshGrass upload_mesh_grass(Device& device, const World& world);
+
 /// For every run of every prototype the entry of TriangleTables::index_a where it starts: runs are padded to whole
 /// chunks. After the last run of the last prototype comes one more element, the number of entries.
 std::vector<std::uint32_t> first_triangles(const World& world);

@@ -7,6 +7,7 @@
 #include "host/frame/camera_view.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/frame/read_back.hpp"
+#include "host/frame/seen_geometry.hpp"
 #include "host/frame/visibility.hpp"
 #include "host/passes/pose_grass.hpp"
 #include "host/passes/pose_mesh.hpp"
@@ -40,15 +41,18 @@ struct FrameRunner::Impl {
   Impl(Device& the_device, const World& the_world);
   void choose(const Methods& methods);
   void draw();
+  void pose_everything();
   void shade();
+  const Geometry& drawn() const { return seen ? seen->geometry() : geometry; }
 
   Device& device;
   const World& world;
   Plan plan;
-  int guard = 0;  // pixels drawn around the image
-  Geometry geometry;
-  std::vector<SwaySeries> series;  // per World::grass
-  Pose pose;                       // of the last frame, and the camera that saw it, guard included
+  int guard = 0;                     // pixels drawn around the image
+  std::optional<SeenGeometry> seen;  // unless everything is drawn
+  Geometry geometry;                 // else of everything
+  std::vector<SwaySeries> series;    // per World::grass
+  Pose pose;                         // of the last frame, and the camera that saw it, guard included
   CameraView camera{};
   Buffer<LimbPose> limbs;
   VisibilityBuffer visible;
@@ -61,15 +65,21 @@ struct FrameRunner::Impl {
   std::optional<VisibilityPasses> visibility;
 };
 
-FrameRunner::Impl::Impl(Device& the_device, const World& the_world)
-    : device(the_device), world(the_world), geometry(upload_geometry(device, world)) {
+FrameRunner::Impl::Impl(Device& the_device, const World& the_world) : device(the_device), world(the_world) {
   owners = upload_owners(device, world.owners);
-  if (geometry.has_mesh()) pose_mesh.emplace(device);
-  if (geometry.has_grass()) {
-    pose_grass.emplace(device);
+  if (world.scene.detail == "brute")
+    geometry = upload_geometry(device, world);
+  else
+    seen.emplace(device, world, world.scene.detail == "thinned");
+  const bool mesh = !world.instances.empty();
+  const bool grass =
+      std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; });
+  if (mesh && !seen) pose_mesh.emplace(device);
+  if (grass) {
+    if (!seen) pose_grass.emplace(device);
     for (const ModalSeries& response : world.dynamics->grass) series.push_back(upload_series(device, response));
   }
-  rasterise.emplace(device, geometry.has_mesh(), geometry.has_grass(), device.info().atomic64);
+  rasterise.emplace(device, mesh, grass, device.info().atomic64);
   choose(world.scene.methods);
 }
 
@@ -94,6 +104,14 @@ void FrameRunner::Impl::choose(const Methods& methods) {
 }
 
 void FrameRunner::Impl::draw() {
+  if (seen)
+    seen->pose(pose, camera, series);
+  else
+    pose_everything();
+  rasterise->run(drawn().triangles, drawn().posed, camera, visible);
+}
+
+void FrameRunner::Impl::pose_everything() {
   if (pose_mesh) {
     if (limbs.size() != pose.limbs.size()) limbs = Buffer<LimbPose>(device, pose.limbs.size(), "limb poses");
     limbs.write(pose.limbs);
@@ -105,13 +123,13 @@ void FrameRunner::Impl::draw() {
       pose_grass->run(geometry.blades, pose.grass[field], series[field], range.first_blade, range.blades,
                       range.first_vertex, geometry.posed);
   }
-  rasterise->run(geometry.triangles, geometry.posed, camera, visible);
 }
 
 void FrameRunner::Impl::shade() {
-  const RestGeometry rest{geometry.blades,  static_cast<float>(-pose.eye.z), &geometry.rest,
-                          &geometry.blocks, visibility->baked_faces(),       &geometry.mesh_grass};
-  resolve->run(visible, geometry.triangles, geometry.posed, rest, camera, planes);
+  const auto* faces = visibility->baked_faces();
+  const RestGeometry rest{drawn().blades,  static_cast<float>(-pose.eye.z),   &drawn().rest,
+                          &drawn().blocks, seen ? seen->faces(faces) : faces, &drawn().mesh_grass};
+  resolve->run(visible, drawn().triangles, drawn().posed, rest, camera, planes);
   visibility->see(obscurance_view(camera));
   visibility->run(&pose, owners, planes);
 }
@@ -151,7 +169,7 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
 void FrameRunner::shade_again() { impl_->shade(); }
 
 PosedGeometry FrameRunner::posed_geometry() const {
-  return read_geometry(impl_->geometry, impl_->world.scene.camera.position);
+  return read_geometry(impl_->drawn(), impl_->world.scene.camera.position);
 }
 
 }  // namespace understory

@@ -15,6 +15,13 @@ struct RestVertices {
   Buffer<std::uint8_t> flutter_phase;                   // 1/256 turn
 };
 
+/// Thinned foliage: the middle of each rest vertex' leaf (prototype frame, m), and by which factor the leaves of each
+/// posed block are enlarged about theirs.
+struct EnlargedLeaves {
+  Buffer<float> pivot_x, pivot_y, pivot_z;
+  Buffer<float> block_scale;
+};
+
 /// Blades of all fields, one after another, each field padded to a multiple of 256 by blades of length 0.
 struct RestBlades {
   Buffer<float> root_x, root_y, root_z;  // m, relative to the origin
@@ -39,6 +46,7 @@ struct TriangleTables {
 
 inline constexpr std::uint32_t triangles_per_chunk = 256;
 inline constexpr std::uint32_t blades_per_group = 256;
+inline constexpr std::uint32_t blades_per_unit = 16;  // of a BladeUnit
 inline constexpr std::uint32_t vertices_per_blade = 7, triangles_per_blade = 5;
 
 /// Grass that stands as a mesh, by row of the owner table: z of its root relative to the origin, and how high it is, m;

@@ -7,12 +7,17 @@ namespace understory {
 
 class PoseMeshPass {
  public:
-  explicit PoseMeshPass(Device& device);
+  /// `thinned`: leaves are enlarged by a factor per block.
+  explicit PoseMeshPass(Device& device, bool thinned = false);
   /// Writes 16 * blocks.size() vertices at the start of `posed`. Indices in `blocks` are the caller's to get right.
   void run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, const Buffer<LimbPose>& limbs,
            PosedVertices& posed);
+  /// The same for the first `count` blocks. `enlarged` is needed when the pass was made for it.
+  void run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, std::size_t count, const Buffer<LimbPose>& limbs,
+           const EnlargedLeaves* enlarged, PosedVertices& posed);
 
  private:
+  bool thinned_;
   std::size_t lanes_;
   Kernel kernel_;
 };

@@ -43,6 +43,14 @@ typedef struct {
   record_uint owner;         // row of the owner table
 } TriangleChunk;             // 16 bytes
 
+/// 16 blades that are drawn: blades first_blade + lane become strips of 2 pairs + 1 vertices, vertex k of lane l at
+/// first_vertex + 256 k + l. `width`: how much wider they are than at rest.
+typedef struct {
+  record_uint first_blade, first_vertex;
+  float width;
+  record_uint pairs;                // 1, 2 or 3
+} BladeUnit;                        // 16 bytes
+
 /// The wind over one grass field at time t. Blades look up their own arrival time in the series.
 /// Response series: tip-angle response of the field's sway mode, along and across the mean wind, radians at flexibility 1;
 /// periodic, `series_count` samples (a power of two), `series_rate` samples per second, linear interpolation.
@@ -93,6 +101,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(LimbPose) == 128 && sizeof(PosedBlock) == 8 && sizeof(TriangleChunk) == 16);
+static_assert(sizeof(BladeUnit) == 16);
 static_assert(sizeof(GrassWind) == 64 && sizeof(CameraView) == 80 && sizeof(ShadingSphere) == 32 && sizeof(CrownRecord) == 96);
 }  // namespace understory
 #endif

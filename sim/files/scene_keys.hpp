@@ -374,6 +374,8 @@ void keys(Archive& a, Scene& scene) {
   a.check(names_differ(scene.occluders), "occluders", "a name of its own for each occluder");
   a.record("environment", scene.environment, "coloured light of a picture of the sky; left out: a uniform sky");
   a.record("methods", scene.methods, "which model of visibility shades what");
+  a.word("detail", scene.detail, {"brute", "culled", "thinned"},
+         "what is drawn: everything; what is in view; and fewer, larger leaves and blades far away");
   a.at_least_one({"terrain", "plants", "grass", "occluders"});
 }
 

@@ -1,0 +1,302 @@
+#include "host/frame/detail_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "host/frame/geometry.hpp"
+#include "sim/plants/pieces.hpp"
+#include "sim/random.hpp"
+
+namespace understory {
+namespace {
+
+constexpr std::uint32_t unit_vertices = unit_blocks * vertex_block;
+constexpr double widest_twig = 0.03;        // m at scale 1: thicker wood keeps its shape
+constexpr std::size_t least_triangles = 9;  // a cone has three
+
+/// Consecutive triangles of a run that are one leaf, one twig, or any other connected surface.
+struct Piece {
+  std::vector<std::uint32_t> triangles;  // in Prototype::triangles / 3
+  std::vector<std::uint32_t> vertices;   // in order of first use
+};
+
+std::vector<glm::vec3> rest_positions(const VertexBlocks& v) {
+  std::vector<glm::vec3> positions(v.x.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = {v.x[i], v.y[i], v.z[i]};
+  return positions;
+}
+
+glm::vec3 middle_of(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& vertices) {
+  glm::vec3 sum(0);
+  for (const std::uint32_t vertex : vertices) sum += positions[vertex];
+  return sum / static_cast<float>(vertices.size());
+}
+
+/// One prototype on its way into the layout.
+class PrototypeLayout {
+ public:
+  PrototypeLayout(const Prototype& prototype, const std::uint32_t* run_starts, DetailLayout& layout)
+      : prototype_(prototype),
+        run_starts_(run_starts),
+        layout_(layout),
+        sections_(layout.sections.emplace_back()),
+        positions_(rest_positions(prototype.vertices)) {}
+
+  void add_runs() {
+    for (std::uint32_t run = 0; run < prototype_.runs.size(); ++run)
+      for (auto& [limb, pieces] : pieces_by_limb(prototype_.runs[run])) {
+        const SurfaceClass surface = prototype_.runs[run].surface;
+        if (surface == SurfaceClass::leaf)
+          add_leaves(run, limb, pieces);
+        else if (surface == SurfaceClass::wood)
+          add_wood(run, limb, pieces);
+        else
+          add_section(run, limb, pieces);
+      }
+  }
+
+ private:
+  std::map<std::uint32_t, std::vector<Piece>> pieces_by_limb(const TriangleRun& run) const {
+    const std::vector<std::uint32_t> corners(prototype_.triangles.begin() + 3 * std::ptrdiff_t{run.first},
+                                             prototype_.triangles.begin() + 3 * std::ptrdiff_t{run.first + run.count});
+    // Surfaces that are neither leaves nor wood are not taken apart.
+    const bool whole = run.surface != SurfaceClass::leaf && run.surface != SurfaceClass::wood;
+    const Pieces connected = whole ? Pieces{} : connected_pieces(positions_, corners);
+    std::map<std::uint32_t, std::vector<Piece>> limbs;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> place;  // (limb, piece) -> in limbs[limb]
+    std::vector<char> seen(positions_.size(), 0);
+    for (std::uint32_t t = 0; t < run.count; ++t) {
+      const std::uint32_t* corner = &corners[3 * std::size_t{t}];
+      const std::uint32_t limb = prototype_.vertices.block_limb[corner[0] / vertex_block];
+      std::vector<Piece>& pieces = limbs[limb];
+      const auto key = std::make_pair(limb, whole ? 0u : connected.of_vertex[corner[0]]);
+      const auto [found, is_new] = place.try_emplace(key, pieces.size());
+      if (is_new) pieces.emplace_back();
+      Piece& piece = pieces[found->second];
+      piece.triangles.push_back(run.first + t);
+      for (int k = 0; k < 3; ++k)
+        if (!seen[corner[k]]) seen[corner[k]] = 1, piece.vertices.push_back(corner[k]);
+    }
+    return limbs;
+  }
+
+  void add_leaves(std::uint32_t run, std::uint32_t limb, std::vector<Piece>& pieces) {
+    const auto large = std::stable_partition(pieces.begin(), pieces.end(), [](const Piece& piece) {
+      return piece.triangles.size() <= unit_triangles && piece.vertices.size() <= unit_vertices;
+    });
+    std::vector<Piece> leaves(pieces.begin(), large), others(large, pieces.end());
+    // The order in which leaves go: fixed, and independent of where a leaf stands.
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
+    for (std::size_t i = 0; i < leaves.size(); ++i) order.emplace_back(mix_bits(leaves[i].triangles.front()), i);
+    std::sort(order.begin(), order.end());
+    if (!leaves.empty()) {
+      DetailSection section = begin_section(run, limb);
+      double area = 0;
+      for (const auto& [key, i] : order) {
+        const Piece& leaf = leaves[i];
+        if (layout_.a.size() % unit_triangles + leaf.triangles.size() > unit_triangles ||
+            unit_vertices_used(section) + leaf.vertices.size() > unit_vertices)
+          fill_unit(section);
+        const glm::vec3 middle = middle_of(positions_, leaf.vertices);
+        add_piece(section, leaf, &middle);
+        for (const std::uint32_t t : leaf.triangles) area += area_of(t);
+        for (const std::uint32_t v : leaf.vertices)
+          section.piece_radius = std::max(section.piece_radius, glm::distance(positions_[v], middle));
+        if (layout_.a.size() % unit_triangles == 0) fill_unit(section);
+      }
+      fill_unit(section);
+      section.size = static_cast<float>(std::sqrt(area / static_cast<double>(leaves.size())));
+      end_section(section);
+    }
+    if (!others.empty()) add_section(run, limb, others);
+  }
+
+  void add_wood(std::uint32_t run, std::uint32_t limb, std::vector<Piece>& pieces) {
+    const Pieces connected = [&] {
+      Pieces all;
+      all.first.push_back(0);
+      for (const Piece& piece : pieces) {
+        all.vertices.insert(all.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+        all.first.push_back(static_cast<std::uint32_t>(all.vertices.size()));
+      }
+      return all;
+    }();
+    std::vector<Piece> boughs, twigs, cones;
+    double diameters = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const StemPiece stem = measure_stem(positions_, connected, i);
+      const double diameter = 2 * double(std::max(stem.ends[0].radius, stem.ends[1].radius));
+      if (pieces[i].triangles.size() < least_triangles || diameter > widest_twig ||
+          double(stem.extent) < 4 * diameter) {
+        boughs.push_back(std::move(pieces[i]));
+        continue;
+      }
+      diameters += diameter;
+      cones.push_back(cone_of(pieces[i], stem));
+      twigs.push_back(std::move(pieces[i]));
+    }
+    if (!boughs.empty()) add_section(run, limb, boughs);
+    if (twigs.empty()) return;
+    add_section(run, limb, twigs);
+    const std::size_t full = sections_.size() - 1;
+    sections_[full].size = static_cast<float>(diameters / static_cast<double>(twigs.size()));
+    sections_[full].coarse = static_cast<std::int32_t>(sections_.size());
+    add_cones(run, limb, cones);
+  }
+
+  /// Three corners at the thick end of a twig, spread about it, and the vertex farthest from them.
+  Piece cone_of(const Piece& twig, const StemPiece& stem) const {
+    const int thick = stem.ends[0].radius >= stem.ends[1].radius ? 0 : 1;
+    const glm::vec3 foot = stem.ends[thick].middle, tip = stem.ends[1 - thick].middle;
+    const auto along = [&](std::uint32_t v) { return glm::distance(positions_[v], foot); };
+    const float reach = 1.5f * stem.ends[thick].radius;
+    std::vector<std::uint32_t> ring;
+    for (const std::uint32_t v : twig.vertices)
+      if (along(v) <= reach) ring.push_back(v);
+    Piece cone;
+    const std::uint32_t last = *std::min_element(twig.vertices.begin(), twig.vertices.end(), [&](auto a, auto b) {
+      return glm::distance(positions_[a], tip) < glm::distance(positions_[b], tip);
+    });
+    const std::size_t n = ring.size();
+    for (std::size_t k = 0; k < 3 && n >= 3; ++k) cone.vertices.push_back(ring[k * n / 3]);
+    if (n < 3) cone.vertices = {twig.vertices[0], twig.vertices[1], twig.vertices[2]};
+    cone.vertices.push_back(last);
+    cone.triangles = {twig.triangles.front()};
+    return cone;
+  }
+
+  void add_cones(std::uint32_t run, std::uint32_t limb, const std::vector<Piece>& cones) {
+    DetailSection section = begin_section(run, limb);
+    section.is_coarse = true;
+    for (const Piece& cone : cones) {
+      const std::uint32_t first = next_vertex(section);
+      for (const std::uint32_t v : cone.vertices) add_vertex(v, positions_[v]);
+      for (std::uint32_t k = 0; k < 3; ++k)
+        add_triangle(first + k, first + (k + 1) % 3, first + 3, source_of(run, cone.triangles.front()));
+    }
+    fill_up(section);
+    end_section(section);
+  }
+
+  void add_section(std::uint32_t run, std::uint32_t limb, const std::vector<Piece>& pieces) {
+    DetailSection section = begin_section(run, limb);
+    for (const Piece& piece : pieces) add_piece(section, piece, nullptr);
+    fill_up(section);
+    end_section(section);
+  }
+
+  DetailSection begin_section(std::uint32_t run, std::uint32_t limb) const {
+    DetailSection section;
+    section.run = run;
+    section.limb = limb;
+    section.first_block = static_cast<std::uint32_t>(layout_.vertices.x.size() / vertex_block);
+    section.first_triangle = static_cast<std::uint32_t>(layout_.a.size());
+    return section;
+  }
+
+  void end_section(DetailSection& section) {
+    const VertexBlocks& v = layout_.vertices;
+    section.blocks = static_cast<std::uint32_t>(v.x.size() / vertex_block) - section.first_block;
+    section.triangles = static_cast<std::uint32_t>(layout_.a.size()) - section.first_triangle;
+    layout_.vertices.block_limb.resize(v.x.size() / vertex_block, section.limb);
+    const std::size_t first = std::size_t{section.first_block} * vertex_block;
+    glm::vec3 low(v.x[first], v.y[first], v.z[first]), high = low;
+    for (std::size_t i = first; i < v.x.size(); ++i) {
+      low = glm::min(low, glm::vec3(v.x[i], v.y[i], v.z[i]));
+      high = glm::max(high, glm::vec3(v.x[i], v.y[i], v.z[i]));
+    }
+    section.centre = 0.5f * (low + high);
+    for (std::size_t i = first; i < v.x.size(); ++i)
+      section.radius = std::max(section.radius, glm::distance(section.centre, glm::vec3(v.x[i], v.y[i], v.z[i])));
+    section.radius += std::sqrt(3.0f) * prototype_.flutter_scale;
+    sections_.push_back(section);
+  }
+
+  void add_piece(const DetailSection& section, const Piece& piece, const glm::vec3* pivot) {
+    const std::uint32_t first = next_vertex(section);
+    for (std::uint32_t i = 0; i < piece.vertices.size(); ++i) {
+      new_index_[piece.vertices[i]] = first + i;
+      add_vertex(piece.vertices[i], pivot ? *pivot : positions_[piece.vertices[i]]);
+    }
+    for (const std::uint32_t t : piece.triangles) {
+      const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{t}];
+      add_triangle(new_index_[corner[0]], new_index_[corner[1]], new_index_[corner[2]], source_of(section.run, t));
+    }
+  }
+
+  std::uint32_t next_vertex(const DetailSection& section) const {
+    return static_cast<std::uint32_t>(layout_.vertices.x.size()) - section.first_block * vertex_block;
+  }
+  std::uint32_t unit_vertices_used(const DetailSection& section) const { return next_vertex(section) % unit_vertices; }
+  std::uint32_t source_of(std::uint32_t run, std::uint32_t triangle) const {
+    return run_starts_[run] + triangle - prototype_.runs[run].first;
+  }
+
+  double area_of(std::uint32_t triangle) const {
+    const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{triangle}];
+    const glm::dvec3 a(positions_[corner[0]]), b(positions_[corner[1]]), c(positions_[corner[2]]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+
+  void add_vertex(std::uint32_t vertex, glm::vec3 pivot) {
+    const VertexBlocks& from = prototype_.vertices;
+    VertexBlocks& to = layout_.vertices;
+    to.x.push_back(from.x[vertex]);
+    to.y.push_back(from.y[vertex]);
+    to.z.push_back(from.z[vertex]);
+    to.flutter_x.push_back(from.flutter_x[vertex]);
+    to.flutter_y.push_back(from.flutter_y[vertex]);
+    to.flutter_z.push_back(from.flutter_z[vertex]);
+    to.flutter_phase.push_back(from.flutter_phase[vertex]);
+    layout_.pivot_x.push_back(pivot.x);
+    layout_.pivot_y.push_back(pivot.y);
+    layout_.pivot_z.push_back(pivot.z);
+    last_vertex_ = vertex;
+  }
+
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t source) {
+    layout_.a.push_back(a);
+    layout_.b.push_back(b);
+    layout_.c.push_back(c);
+    layout_.source.push_back(source);
+  }
+
+  /// The unit's remaining triangles get no area, its remaining vertices repeat the last one.
+  void fill_unit(const DetailSection& section) {
+    fill_up(section);
+    while (unit_vertices_used(section) != 0) add_vertex(last_vertex_, positions_[last_vertex_]);
+  }
+
+  void fill_up(const DetailSection& section) {
+    const std::uint32_t corner = next_vertex(section) - 1;
+    while (layout_.a.size() % unit_triangles != 0) add_triangle(corner, corner, corner, no_source);
+    while (layout_.vertices.x.size() % vertex_block != 0) add_vertex(last_vertex_, positions_[last_vertex_]);
+  }
+
+  const Prototype& prototype_;
+  const std::uint32_t* run_starts_;
+  DetailLayout& layout_;
+  std::vector<DetailSection>& sections_;
+  std::vector<glm::vec3> positions_;
+  std::vector<std::uint32_t> new_index_ = std::vector<std::uint32_t>(positions_.size());
+  std::uint32_t last_vertex_ = 0;
+};
+
+}  // namespace
+
+DetailLayout lay_out_detail(const World& world) {
+  DetailLayout layout;
+  const std::vector<std::uint32_t> run_starts = first_triangles(world);
+  std::size_t first_run = 0;
+  layout.sections.reserve(world.prototypes.size());
+  for (const Prototype& prototype : world.prototypes) {
+    PrototypeLayout(prototype, run_starts.data() + first_run, layout).add_runs();
+    first_run += prototype.runs.size();
+  }
+  return layout;
+}
+
+}  // namespace understory

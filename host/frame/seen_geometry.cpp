@@ -1,0 +1,89 @@
+#include "host/frame/seen_geometry.hpp"
+
+#include <algorithm>
+
+namespace understory {
+namespace {
+
+template <typename T>
+Buffer<T> uploaded(Device& device, const std::vector<T>& data, const char* what) {
+  return data.empty() ? Buffer<T>() : Buffer<T>(device, std::span<const T>(data), what);
+}
+
+/// Writes a list of this frame, into more memory when it must.
+template <typename T>
+void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, const char* what) {
+  if (buffer.size() < rows.size()) buffer = Buffer<T>(device, rows.size() + rows.size() / 4, what);
+  if (!rows.empty()) buffer.write(std::span<const T>(rows));
+}
+
+}  // namespace
+
+SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned)
+    : device_(device),
+      thinned_(thinned),
+      layout_(lay_out_detail(world)),
+      blades_(lay_out_blades(world)),
+      lister_(world, layout_, blades_, thinned) {
+  upload(layout_, world);
+  if (!world.instances.empty()) pose_mesh_.emplace(device, thinned);
+  if (std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; }))
+    pose_grass_.emplace(device, true);
+}
+
+void SeenGeometry::upload(const DetailLayout& layout, const World& world) {
+  const VertexBlocks& v = layout.vertices;
+  geometry_.rest = {uploaded(device_, v.x, "rest vertices"),           uploaded(device_, v.y, "rest vertices"),
+                    uploaded(device_, v.z, "rest vertices"),           uploaded(device_, v.flutter_x, "leaf flutter"),
+                    uploaded(device_, v.flutter_y, "leaf flutter"),    uploaded(device_, v.flutter_z, "leaf flutter"),
+                    uploaded(device_, v.flutter_phase, "leaf flutter")};
+  geometry_.triangles.index_a = uploaded(device_, layout.a, "triangle corners");
+  geometry_.triangles.index_b = uploaded(device_, layout.b, "triangle corners");
+  geometry_.triangles.index_c = uploaded(device_, layout.c, "triangle corners");
+  if (thinned_) {
+    enlarged_.pivot_x = uploaded(device_, layout.pivot_x, "leaf middles");
+    enlarged_.pivot_y = uploaded(device_, layout.pivot_y, "leaf middles");
+    enlarged_.pivot_z = uploaded(device_, layout.pivot_z, "leaf middles");
+  }
+  upload_blades(device_, blades_.fields, 0, geometry_.blades, geometry_.fields);
+  geometry_.mesh_grass = upload_mesh_grass(device_, world);
+}
+
+void SeenGeometry::pose(const Pose& pose, const CameraView& camera, const std::vector<SwaySeries>& series) {
+  list_ = &lister_.list(pose, camera);
+  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks");
+  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks");
+  geometry_.triangles.mesh_chunks = list_->mesh_chunks;
+  geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->chunks.size()) - list_->mesh_chunks;
+  geometry_.vertices = list_->vertices;
+  geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->blocks.size() * vertex_block);
+  if (geometry_.posed.points.size() < list_->vertices)
+    geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
+  if (!list_->blocks.empty()) {
+    rewrite(device_, limbs_, pose.limbs, "limb poses");
+    if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves");
+    pose_mesh_->run(geometry_.rest, geometry_.blocks, list_->blocks.size(), limbs_, thinned_ ? &enlarged_ : nullptr,
+                    geometry_.posed);
+  }
+  rewrite(device_, blade_units_, list_->blade_units, "blade units");
+  for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
+    const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
+    if (count > 0)
+      pose_grass_->run(geometry_.blades, pose.grass[field], series[field], blade_units_, first, count, geometry_.posed);
+  }
+}
+
+const Buffer<std::array<std::uint32_t, 2>>* SeenGeometry::faces(
+    const Buffer<std::array<std::uint32_t, 2>>* of_prototypes) {
+  if (!of_prototypes) return nullptr;
+  if (faces_.size() == 0) {
+    const std::vector<std::array<std::uint32_t, 2>> all = of_prototypes->read();
+    std::vector<std::array<std::uint32_t, 2>> ordered(layout_.source.size());  // no texel: of triangles without area
+    for (std::size_t t = 0; t < ordered.size(); ++t)
+      if (layout_.source[t] != no_source) ordered[t] = all[layout_.source[t]];
+    faces_ = uploaded(device_, ordered, "baked faces");
+  }
+  return &faces_;
+}
+
+}  // namespace understory

@@ -1,0 +1,168 @@
+// What a frame draws of a scene: every triangle once, nothing that is in view left out, and thinned where it is small.
+#include "host/frame/draw_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "host/frame/camera_view.hpp"
+#include "host/frame/thinning.hpp"
+#include "sim/random.hpp"
+#include "tests/reference/pose_mesh.hpp"
+#include "tests/support/frames.hpp"
+
+namespace understory {
+namespace {
+
+glm::vec3 rest_point(const VertexBlocks& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+World windy_meadow() {
+  Scene scene = meadow_view();
+  scene.wind.speed = 15;
+  return build_world(scene);
+}
+
+using Corners = std::array<float, 9>;
+Corners corners_of(const VertexBlocks& v, const std::array<std::size_t, 3>& index) {
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      corners[3 * k + axis] = rest_point(v, index[k])[static_cast<glm::length_t>(axis)];
+  return corners;
+}
+
+TEST(DetailLayout, HoldsEveryTriangleOfEveryPrototypeOnce) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world);
+  ASSERT_EQ(layout.sections.size(), world.prototypes.size());
+  std::size_t thinned = 0, twigs = 0;
+  for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
+    const Prototype& prototype = world.prototypes[p];
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Corners>> expected, found;  // by run and limb
+    for (std::uint32_t run = 0; run < prototype.runs.size(); ++run)
+      for (std::uint32_t t = prototype.runs[run].first; t < prototype.runs[run].first + prototype.runs[run].count;
+           ++t) {
+        const std::uint32_t* c = &prototype.triangles[3 * std::size_t{t}];
+        expected[{run, prototype.vertices.block_limb[c[0] / vertex_block]}].push_back(
+            corners_of(prototype.vertices, {c[0], c[1], c[2]}));
+      }
+    for (const DetailSection& section : layout.sections[p]) {
+      EXPECT_EQ(section.triangles % unit_triangles, 0u);
+      thinned += section.thins();
+      twigs += section.coarse >= 0;
+      if (section.is_coarse) continue;
+      for (std::uint32_t t = section.first_triangle; t < section.first_triangle + section.triangles; ++t) {
+        const std::size_t first = std::size_t{section.first_block} * vertex_block;
+        if (layout.source[t] == no_source) continue;
+        found[{section.run, section.limb}].push_back(
+            corners_of(layout.vertices, {first + layout.a[t], first + layout.b[t], first + layout.c[t]}));
+      }
+    }
+    for (auto* all : {&expected, &found})
+      for (auto& [key, triangles] : *all) std::sort(triangles.begin(), triangles.end());
+    EXPECT_EQ(found, expected) << prototype.name;
+  }
+  EXPECT_GT(thinned, 0u);
+  EXPECT_GT(twigs, 0u);
+}
+
+TEST(DetailLayout, AUnitNeedsNoVertexOfALaterOne) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world);
+  for (const std::vector<DetailSection>& sections : layout.sections)
+    for (const DetailSection& section : sections) {
+      if (!section.thins()) continue;
+      ASSERT_EQ(section.blocks, section.triangles / unit_triangles * unit_blocks);
+      for (std::uint32_t t = 0; t < section.triangles; ++t) {
+        const std::uint32_t end = (t / unit_triangles + 1) * unit_blocks * vertex_block,
+                            at = section.first_triangle + t;
+        ASSERT_LT(std::max({layout.a[at], layout.b[at], layout.c[at]}), end);
+      }
+    }
+}
+
+TEST(DrawList, SpheresHoldTheirSectionsInAStorm) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world);
+  for (double time : {0.0, 2.3, 7.1}) {
+    const Pose pose = pose_at(world, time, world.scene.camera.position);
+    for (std::size_t i = 0; i < world.instances.size(); ++i)
+      for (const DetailSection& section : layout.sections[world.instances[i].prototype]) {
+        const LimbPose& limb = pose.limbs[pose.first_limb[i] + section.limb];
+        const glm::vec4 sphere = posed_sphere(limb, section, world.instances[i].scale);
+        for (std::size_t v = section.first_block * vertex_block;
+             v < (section.first_block + section.blocks) * vertex_block; v += 3) {
+          const VertexBlocks& all = layout.vertices;
+          const glm::dvec3 flutter(all.flutter_x[v], all.flutter_y[v], all.flutter_z[v]);
+          const glm::dvec3 at =
+              reference::posed_point(limb, glm::dvec3(rest_point(all, v)), flutter, all.flutter_phase[v]);
+          ASSERT_LE(glm::distance(at, glm::dvec3(glm::vec3(sphere))), double(sphere.w) * 1.0001 + 1e-4)
+              << world.prototypes[world.instances[i].prototype].name << " at " << time << " s";
+        }
+      }
+  }
+}
+
+TEST(DrawList, NoSphereThatReachesTheImageIsOutOfView) {
+  Camera camera;
+  camera.position = {0, 0, 0};
+  camera.target = {1, 2, -0.3};
+  const CameraView view = camera_view(camera, {160, 90}, glm::dvec2(0));
+  Random random(3, 1);
+  int seen = 0, unseen = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto away = [&] { return random.normal(0, 8); };
+    const glm::dvec3 centre(away(), away(), away());
+    const double radius = std::abs(random.normal(0, 1));
+    const bool in = in_view(view, centre, radius);
+    bool reaches = false;
+    for (int k = 0; k < 40 && !reaches; ++k) {  // points within the sphere
+      const glm::dvec3 p = centre + radius * random.uniform() *
+                                        glm::normalize(glm::dvec3(random.normal(), random.normal(), random.normal()));
+      const auto along = [&](const float(&a)[4]) {
+        return double(a[0]) * p.x + double(a[1]) * p.y + double(a[2]) * p.z;
+      };
+      const double z = along(view.forward), x = along(view.right) * double(view.focal) / z + double(view.centre_x),
+                   y = along(view.down) * double(view.focal) / z + double(view.centre_y);
+      reaches = z > double(view.near_plane) && x >= 0 && x <= view.width && y >= 0 && y <= view.height;
+    }
+    if (reaches) {
+      EXPECT_TRUE(in) << i;
+    }
+    ++(in ? seen : unseen);
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(unseen, 10000) << "what is far outside is left out";
+}
+
+TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world);
+  const BladeLayout blades = lay_out_blades(world);
+  const Pose pose = pose_at(world, 1, world.scene.camera.position);
+  const CameraView view = camera_view(world.scene.camera, world.scene.image, glm::dvec2(0));
+  const DrawList whole = DrawLister(world, layout, blades, false).list(pose, view);
+  const DrawList thinned = DrawLister(world, layout, blades, true).list(pose, view);
+  EXPECT_LT(thinned.triangles, whole.triangles);
+  EXPECT_TRUE(whole.block_scale.empty());
+  EXPECT_EQ(thinned.block_scale.size(), thinned.blocks.size());
+  for (const BladeUnit& unit : whole.blade_units) {
+    EXPECT_EQ(unit.pairs, 3u);
+    EXPECT_EQ(unit.width, 1.0f);
+  }
+  for (const DrawList* list : {&whole, &thinned})
+    for (const TriangleChunk& chunk : list->chunks) {
+      ASSERT_LE(chunk.count, triangles_per_chunk);
+      ASSERT_LT(chunk.first_vertex, list->vertices);
+    }
+  Camera away = world.scene.camera;
+  away.target = 2.0 * away.position - away.target + glm::dvec3(0, 0, 50);  // the sky behind
+  const DrawList behind =
+      DrawLister(world, layout, blades, false).list(pose, camera_view(away, world.scene.image, glm::dvec2(0)));
+  EXPECT_LT(behind.triangles, whole.triangles / 4);
+}
+
+}  // namespace
+}  // namespace understory
