@@ -35,7 +35,7 @@ for kernel in kernels/*.cl; do
       for radii in 1 2; do lint "$kernel" "-DW=$width" -DNORMALS -DTHICKNESS "-DRADII=$radii"; done
       lint "$kernel" "-DW=$width" -DQUADRATIC -DTHICKNESS
     fi
-    for option in BELOW GRASS_HEIGHT SKY_DOME LEVELS; do
+    for option in BELOW GRASS_HEIGHT SKY_DOME LEVELS THINNED; do
       if grep -q "$option" "$kernel"; then lint "$kernel" "-DW=$width" "-D$option"; fi
     done
   done

@@ -89,16 +89,16 @@ kernel void pose_grass(global const float* root_x, global const float* root_y, g
   const real ox = rx + (real)(wind.root_offset_x), oy = ry + (real)(wind.root_offset_y),
              oz = LOAD(root_z, blade) + (real)(wind.root_offset_z), size = LOAD(length, blade);
 #ifdef THINNED
-  const real half = LOAD(half_width, blade) * widening;
+  const real reach = LOAD(half_width, blade) * widening;
   if (unit->pairs < 3) {
-    store_short_strip(posed, vertex, unit->pairs, size, bend, (BladePoint){ox, oy, oz}, LOAD(facing_x, blade) * half,
-                      LOAD(facing_y, blade) * half);
+    store_short_strip(posed, vertex, unit->pairs, size, bend, (BladePoint){ox, oy, oz}, LOAD(facing_x, blade) * reach,
+                      LOAD(facing_y, blade) * reach);
     return;
   }
 #else
-  const real half = LOAD(half_width, blade);
+  const real reach = LOAD(half_width, blade);
 #endif
-  const real wx = LOAD(facing_x, blade) * half, wy = LOAD(facing_y, blade) * half;
+  const real wx = LOAD(facing_x, blade) * reach, wy = LOAD(facing_y, blade) * reach;
   const BladePoint middle = blade_midline(size, bend.x, bend.y, REAL(0.4));
   const BladePoint upper = blade_midline(size, bend.x, bend.y, REAL(0.75));
   const BladePoint tip = blade_midline(size, bend.x, bend.y, REAL(1.0));

@@ -14,9 +14,10 @@
 
 #define BACKGROUND 1u  // validity code (FORMULAS.md)
 
-kernel void resolve(global const VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
+kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
                     global const uint* index_a, global const uint* index_b, global const uint* index_c,
                     global const float4* posed, const CameraView camera, uint padded_fragments,
+                    uint first_batch, uint last_batch,
                     global float* position_x, global float* position_y, global float* position_z,
                     global float* normal_x, global float* normal_y, global float* normal_z, global float* depth,
                     global uint* owner, global uint* validity
@@ -59,6 +60,8 @@ kernel void resolve(global const VisibleTriangle* pixels, global const TriangleC
 
   for (uint k = 0; k < W; ++k) {
     const uint i = begin + k, triangle = triangles[k];
+    if (triangle == NO_TRIANGLE && !first_batch) continue;  // written by an earlier batch
+    if (triangle != NO_TRIANGLE && !last_batch) forget_triangle(pixels, count, i);
 #ifdef GRASS_HEIGHT
     height_above_root[i] = 0;
     total_height[i] = 0;

@@ -33,7 +33,8 @@ glm::dmat3 about_vertical(double angle) {
 /// One frame of the world, instance by instance; every instance writes to places of its own.
 class Posing {
  public:
-  Posing(const World& world, Pose& pose) : world_(world), pose_(pose) {}
+  /// `crowns_only`: of plants only their crowns are posed.
+  Posing(const World& world, Pose& pose, bool crowns_only) : world_(world), pose_(pose), crowns_only_(crowns_only) {}
 
   void pose_instance(std::size_t i) {
     const Instance& instance = world_.instances[i];
@@ -45,6 +46,13 @@ class Posing {
       case Instance::Role::plant:
         return pose_plant(i);
     }
+  }
+
+  /// Limbs of one plant; its crown is left alone.
+  std::vector<LimbPose> plant_limbs(std::size_t i) {
+    std::vector<LimbPose> limbs(prototype_of(i).limbs.size());
+    bend_plant(i, limbs.size(), limbs.data());
+    return limbs;
   }
 
  private:
@@ -76,17 +84,34 @@ class Posing {
 
   void pose_plant(std::size_t i) {
     const Instance& instance = world_.instances[i];
+    const Prototype& prototype = prototype_of(i);
+    const std::size_t limbs = crowns_only_ ? std::size_t{prototype.crown.limb} + 1 : prototype.limbs.size();
+    if (crowns_only_ && instance.crown < 0) return;
+    const std::vector<BentLimb> bent = bend_plant(i, limbs, crowns_only_ ? nullptr : &pose_.limbs[pose_.first_limb[i]]);
+    if (instance.crown >= 0 && instance.species >= 0)
+      pose_.crowns[instance.crown] = crown_of(instance, bent[prototype.crown.limb]);
+  }
+
+  /// Bends the first `count` limbs of a plant. `records`: where they go, unless null.
+  std::vector<BentLimb> bend_plant(std::size_t i, std::size_t count, LimbPose* records) {
+    const Instance& instance = world_.instances[i];
     const LimbFrame root{about_vertical(instance.yaw), instance.position};
-    if (instance.species < 0) return pose_rigid(i, [&](std::size_t) { return root; });  // of no species: nothing sways
+    std::vector<BentLimb> bent(count);
+    if (instance.species < 0) {  // of no species: nothing sways
+      for (std::size_t limb = 0; limb < count; ++limb) {
+        bent[limb].frame = root;
+        bent[limb].scale = instance.scale;
+        if (records) records[limb] = bent[limb].record(pose_.eye);
+      }
+      return bent;
+    }
     const Prototype& prototype = prototype_of(i);
     const SpeciesSway& sway = world_.dynamics->species[instance.species];
     const glm::dvec2 along = world_.wind->direction();
     // A gust reaches the plant when it has travelled to it (Taylor's frozen turbulence).
     const double arrival = glm::dot(along, glm::dvec2(instance.position)) / world_.wind->convection_speed();
     const double time = pose_.time - arrival - instance.delay;
-
-    std::vector<BentLimb> bent(prototype.limbs.size());
-    for (std::size_t limb = 0; limb < bent.size(); ++limb) {
+    for (std::size_t limb = 0; limb < count; ++limb) {
       const Limb& rest = prototype.limbs[limb];
       const double local_time = time - rest.delay;
       glm::dvec2 response{0};
@@ -101,13 +126,14 @@ class Posing {
               : LimbFrame{root.rotation, root.base + instance.scale * (root.rotation * glm::dvec3(rest.base))};
       bent[limb] = bend_limb(rest, frame, instance.scale, push);
 
-      LimbPose& record = pose_.limbs[pose_.first_limb[i] + limb];
+      if (!records) continue;
+      LimbPose& record = records[limb];
       record = bent[limb].record(pose_.eye);
       const double drive = glm::length(sway.flutter.at(local_time)) * sway.exposure[limb];
       record.flutter_amplitude = static_cast<float>(prototype.flutter_scale / 127 * std::tanh(drive / full_flutter));
       record.flutter_phase = phase_at(sway.leaf_frequency, pose_.time - instance.delay - rest.delay);
     }
-    if (instance.crown >= 0) pose_.crowns[instance.crown] = crown_of(instance, bent[prototype.crown.limb]);
+    return bent;
   }
 
   PosedCrown crown_of(const Instance& instance, const BentLimb& trunk) const {
@@ -142,11 +168,10 @@ class Posing {
 
   const World& world_;
   Pose& pose_;
+  bool crowns_only_;
 };
 
-}  // namespace
-
-Pose pose_at(const World& world, double time, glm::dvec3 eye) {
+Pose pose_parts(const World& world, double time, glm::dvec3 eye, bool with_plants) {
   Pose pose;
   pose.time = time;
   pose.eye = eye;
@@ -154,18 +179,34 @@ Pose pose_at(const World& world, double time, glm::dvec3 eye) {
   std::size_t crowns = 0;
   for (const Instance& instance : world.instances) {
     pose.first_limb.push_back(limbs);
-    limbs += static_cast<std::uint32_t>(world.prototypes[instance.prototype].limbs.size());
+    if (with_plants || instance.role != Instance::Role::plant)
+      limbs += static_cast<std::uint32_t>(world.prototypes[instance.prototype].limbs.size());
     crowns += instance.crown >= 0;
   }
   pose.limbs.resize(limbs);
   pose.crowns.resize(crowns);
   pose.spheres.resize(world.occluder_spheres.size());
-  Posing posing(world, pose);
+  Posing posing(world, pose, !with_plants);
   tbb::parallel_for(std::size_t(0), world.instances.size(), [&](std::size_t i) { posing.pose_instance(i); });
   for (std::size_t f = 0; f < world.grass.size(); ++f)
     pose.grass.push_back(
         grass_wind_at(*world.wind, world.scene.grass[world.grass[f].field], world.dynamics->grass[f], time, eye));
   return pose;
+}
+
+}  // namespace
+
+Pose pose_at(const World& world, double time, glm::dvec3 eye) { return pose_parts(world, time, eye, true); }
+
+Pose pose_without_plants(const World& world, double time, glm::dvec3 eye) {
+  return pose_parts(world, time, eye, false);
+}
+
+std::vector<LimbPose> plant_limbs_at(const World& world, std::size_t instance, double time, glm::dvec3 eye) {
+  Pose pose;
+  pose.time = time;
+  pose.eye = eye;
+  return Posing(world, pose, false).plant_limbs(instance);
 }
 
 }  // namespace understory

@@ -40,7 +40,7 @@ struct PosedSphere {
 struct Pose {
   double time = 0;
   glm::dvec3 eye{0};                      // camera position relative to the origin
-  std::vector<LimbPose> limbs;            // all instances' limbs, in order of World::instances
+  std::vector<LimbPose> limbs;            // all instances' limbs, in order of World::instances; or without plants'
   std::vector<std::uint32_t> first_limb;  // per instance
   std::vector<PosedCrown> crowns;         // indexed by Owner::crown
   std::vector<PosedSphere> spheres;       // moving occluders
@@ -49,5 +49,11 @@ struct Pose {
 
 /// `eye` is subtracted from every position. Deterministic for any thread count.
 Pose pose_at(const World& world, double time, glm::dvec3 eye);
+
+/// The same without the limbs of plants, of which a forest has too many to hold at once.
+Pose pose_without_plants(const World& world, double time, glm::dvec3 eye);
+
+/// The limbs that pose_without_plants leaves out, of one plant.
+std::vector<LimbPose> plant_limbs_at(const World& world, std::size_t instance, double time, glm::dvec3 eye);
 
 }  // namespace understory

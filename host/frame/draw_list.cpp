@@ -101,110 +101,165 @@ bool in_view(const CameraView& camera, const glm::dvec3& centre, double radius) 
   return inside(x, left) && inside(-x, right) && inside(y, top) && inside(-y, bottom);
 }
 
-struct DrawLister::Part {
-  std::vector<PosedBlock> blocks;
-  std::vector<float> block_scale;
-  std::vector<TriangleChunk> chunks;  // first_vertex counts from the part's own
-  std::uint64_t triangles = 0;
-};
+DrawLister::DrawLister(const World& world, const DetailLayout& layout, const BladeLayout& blades, bool thinned,
+                       std::uint32_t most_vertices)
+    : world_(world), layout_(layout), blades_(blades), thinned_(thinned), most_vertices_(most_vertices) {}
 
-DrawLister::DrawLister(const World& world, const DetailLayout& layout, const BladeLayout& blades, bool thinned)
-    : world_(world), layout_(layout), blades_(blades), thinned_(thinned) {}
+void DrawLister::begin(const Pose& pose, const CameraView& camera) {
+  pose_ = &pose;
+  camera_ = camera;
+  next_instance_ = next_field_ = next_group_ = next_part_ = 0;
+  waiting_.clear();
+  order_nearest_first();
+}
 
-void DrawLister::list_instance(std::size_t i, const Pose& pose, const CameraView& camera, Part& part) const {
+void DrawLister::order_nearest_first() {
+  const auto order = [](std::vector<Place>& places) {
+    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+    });
+  };
+  instances_.clear();
+  for (std::uint32_t i = 0; i < world_.instances.size(); ++i)
+    instances_.push_back({glm::distance(world_.instances[i].position, pose_->eye), i});
+  order(instances_);
+  groups_.resize(blades_.groups.size());
+  for (std::size_t field = 0; field < groups_.size(); ++field) {
+    groups_[field].clear();
+    for (std::uint32_t group = 0; group < blades_.groups[field].size(); ++group)
+      groups_[field].push_back({glm::distance(blades_.groups[field][group].centre, pose_->eye), group});
+    order(groups_[field]);
+  }
+}
+
+bool DrawLister::more() const {
+  return next_part_ < waiting_.size() || next_instance_ < world_.instances.size() ||
+         next_field_ < blades_.fields.size();
+}
+
+void DrawLister::list_instance(std::size_t i, Part& part) const {
   const Instance& instance = world_.instances[i];
+  if (instance.role == Instance::Role::plant) {
+    part.limbs = plant_limbs_at(world_, i, pose_->time, pose_->eye);
+  } else {
+    const auto first = pose_->limbs.begin() + pose_->first_limb[i];
+    part.limbs.assign(first, first + static_cast<std::ptrdiff_t>(world_.prototypes[instance.prototype].limbs.size()));
+  }
   const std::vector<DetailSection>& sections = layout_.sections[instance.prototype];
   std::vector<float> areas;
   for (const DetailSection& candidate : sections) {
     if (candidate.is_coarse) continue;
-    const std::uint32_t limb = pose.first_limb[i] + candidate.limb;
-    const glm::vec4 sphere = posed_sphere(pose.limbs[limb], candidate, instance.scale);
+    const glm::vec4 sphere = posed_sphere(part.limbs[candidate.limb], candidate, instance.scale);
     const glm::dvec3 centre(sphere);
-    const double distance = std::max(glm::length(centre), double(camera.near_plane));
-    const double pixels = double(candidate.size) * instance.scale * double(camera.focal) / distance;
+    const double distance = std::max(glm::length(centre), double(camera_.near_plane));
+    const double pixels = double(candidate.size) * instance.scale * double(camera_.focal) / distance;
     const DetailSection* section = &candidate;
     double grown = 0;  // how far enlarged leaves reach out of the sphere
-    std::uint32_t units = section->triangles / unit_triangles;
     areas.clear();
     if (thinned_ && candidate.thins()) {
-      thin(units, pixels * pixels / (leaf_pixels * leaf_pixels), areas);
-      units = static_cast<std::uint32_t>(areas.size());
+      thin(section->triangles / unit_triangles, pixels * pixels / (leaf_pixels * leaf_pixels), areas);
       grown = (std::sqrt(double(areas.front())) - 1) * double(section->piece_radius) * instance.scale;
     } else if (thinned_ && candidate.coarse >= 0 && pixels < twig_pixels) {
       section = &sections[static_cast<std::size_t>(candidate.coarse)];
-      units = section->triangles / unit_triangles;
     }
-    if (!in_view(camera, centre, double(sphere.w) + grown)) continue;
-
-    const auto first_vertex = static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
-    const std::uint32_t blocks = areas.empty() ? section->blocks : units * unit_blocks;
-    for (std::uint32_t block = 0; block < blocks; ++block) part.blocks.push_back({section->first_block + block, limb});
-    if (thinned_)
-      for (std::uint32_t block = 0; block < blocks; ++block)
-        part.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / unit_blocks]));
-    const std::uint32_t triangles = units * unit_triangles;
-    for (std::uint32_t done = 0; done < triangles; done += triangles_per_chunk)
-      part.chunks.push_back({first_vertex, section->first_triangle + done,
-                             std::min(triangles_per_chunk, triangles - done), instance.run_owner[section->run]});
-    part.triangles += triangles;
+    if (in_view(camera_, centre, double(sphere.w) + grown)) list_section(*section, instance, areas, part);
   }
 }
 
-void DrawLister::gather(std::vector<Part>& parts) {
-  std::vector<std::size_t> first_block(parts.size() + 1, 0), first_chunk(parts.size() + 1, 0);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    first_block[i + 1] = first_block[i] + parts[i].blocks.size();
-    first_chunk[i + 1] = first_chunk[i] + parts[i].chunks.size();
-    list_.triangles += parts[i].triangles;
-  }
-  list_.blocks.resize(first_block.back());
-  list_.block_scale.resize(thinned_ ? first_block.back() : 0);
-  list_.chunks.resize(first_chunk.back());
-  tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::ptrdiff_t>(first_block[i]), chunk = static_cast<std::ptrdiff_t>(first_chunk[i]);
-    std::copy(parts[i].blocks.begin(), parts[i].blocks.end(), list_.blocks.begin() + block);
-    std::copy(parts[i].block_scale.begin(), parts[i].block_scale.end(), list_.block_scale.begin() + block);
-    for (TriangleChunk& c : parts[i].chunks)
-      c.first_vertex += static_cast<std::uint32_t>(first_block[i] * vertex_block);
-    std::copy(parts[i].chunks.begin(), parts[i].chunks.end(), list_.chunks.begin() + chunk);
-  });
-  list_.mesh_chunks = static_cast<std::uint32_t>(list_.chunks.size());
-  list_.vertices = static_cast<std::uint32_t>(list_.blocks.size() * vertex_block);
+void DrawLister::list_section(const DetailSection& section, const Instance& instance, const std::vector<float>& areas,
+                              Part& part) const {
+  const auto first_vertex = static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
+  const auto units = static_cast<std::uint32_t>(areas.size());
+  const std::uint32_t blocks = areas.empty() ? section.blocks : units * unit_blocks;
+  const std::uint32_t triangles = areas.empty() ? section.triangles : units * unit_triangles;
+  for (std::uint32_t block = 0; block < blocks; ++block)
+    part.blocks.push_back({section.first_block + block, section.limb});
+  for (std::uint32_t block = 0; thinned_ && block < blocks; ++block)
+    part.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / unit_blocks]));
+  for (std::uint32_t done = 0; done < triangles; done += triangles_per_chunk)
+    part.chunks.push_back({first_vertex, section.first_triangle + done, std::min(triangles_per_chunk, triangles - done),
+                           instance.run_owner[section.run]});
+  part.triangles += triangles;
 }
 
-void DrawLister::list_grass(const Pose& pose, const CameraView& camera) {
-  list_.blade_units.clear();
-  list_.first_unit.clear();
-  std::vector<float> widths;
+void DrawLister::list_wave() {
+  constexpr std::size_t wave = 64;  // instances that are listed side by side
+  waiting_.clear();
+  next_part_ = 0;
+  waiting_.resize(std::min(wave, world_.instances.size() - next_instance_));
+  tbb::parallel_for(std::size_t(0), waiting_.size(),
+                    [&](std::size_t k) { list_instance(instances_[next_instance_ + k].index, waiting_[k]); });
+  next_instance_ += waiting_.size();
+}
+
+void DrawLister::append(Part& part) {
+  const auto limb = static_cast<std::uint32_t>(list_.limbs.size());
+  for (PosedBlock& block : part.blocks) block.limb_pose += limb;
+  for (TriangleChunk& chunk : part.chunks) chunk.first_vertex += list_.vertices;
+  list_.limbs.insert(list_.limbs.end(), part.limbs.begin(), part.limbs.end());
+  list_.blocks.insert(list_.blocks.end(), part.blocks.begin(), part.blocks.end());
+  list_.block_scale.insert(list_.block_scale.end(), part.block_scale.begin(), part.block_scale.end());
+  list_.chunks.insert(list_.chunks.end(), part.chunks.begin(), part.chunks.end());
+  list_.vertices += static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
+  list_.triangles += part.triangles;
+  part = Part();
+}
+
+void DrawLister::list_group(std::size_t field, const BladeGroup& group) {
+  const glm::dvec3 centre = group.centre - pose_->eye;
+  if (!in_view(camera_, centre, double(group.radius))) return;
+  const double scale = double(camera_.focal) / std::max(glm::length(centre), double(camera_.near_plane));
+  const std::size_t all = (group.blades + blades_per_unit - 1) / blades_per_unit;
+  thin(all, thinned_ ? double(group.width) * scale / blade_pixels : 2.0, widths_);
+  const std::uint32_t pairs = thinned_ ? strip_pairs(double(group.length) * scale) : 3;
+  for (std::uint32_t unit = 0; unit < widths_.size(); ++unit)
+    list_.blade_units.push_back(
+        {group.first_blade + unit * blades_per_unit, list_.vertices + unit * blades_per_unit, widths_[unit], pairs});
+  const auto count = std::min(group.blades, static_cast<std::uint32_t>(widths_.size()) * blades_per_unit);
+  for (std::uint32_t k = 0; k < 2 * pairs - 1; ++k)
+    list_.chunks.push_back(
+        {list_.vertices + k * blades_per_group, group.first_blade, count, blades_.fields[field].owner});
+  list_.vertices += (2 * pairs + 1) * blades_per_group;
+  list_.triangles += std::uint64_t{2 * pairs - 1} * count;
+}
+
+void DrawLister::list_grass() {
   for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
     list_.first_unit.push_back(static_cast<std::uint32_t>(list_.blade_units.size()));
-    for (const BladeGroup& group : blades_.groups[field]) {
-      const glm::dvec3 centre = group.centre - pose.eye;
-      if (!in_view(camera, centre, double(group.radius))) continue;
-      const double scale = double(camera.focal) / std::max(glm::length(centre), double(camera.near_plane));
-      const std::size_t all = (group.blades + blades_per_unit - 1) / blades_per_unit;
-      thin(all, thinned_ ? double(group.width) * scale / blade_pixels : 2.0, widths);
-      const std::uint32_t pairs = thinned_ ? strip_pairs(double(group.length) * scale) : 3;
-      for (std::uint32_t unit = 0; unit < widths.size(); ++unit)
-        list_.blade_units.push_back(
-            {group.first_blade + unit * blades_per_unit, list_.vertices + unit * blades_per_unit, widths[unit], pairs});
-      const auto count = std::min(group.blades, static_cast<std::uint32_t>(widths.size()) * blades_per_unit);
-      for (std::uint32_t k = 0; k < 2 * pairs - 1; ++k)
-        list_.chunks.push_back(
-            {list_.vertices + k * blades_per_group, group.first_blade, count, blades_.fields[field].owner});
-      list_.vertices += (2 * pairs + 1) * blades_per_group;
-      list_.triangles += std::uint64_t{2 * pairs - 1} * count;
-    }
+    if (field != next_field_) continue;
+    const std::vector<BladeGroup>& groups = blades_.groups[field];
+    while (next_group_ < groups.size() && (list_.vertices < most_vertices_ || list_.chunks.empty()))
+      list_group(field, groups[groups_[field][next_group_++].index]);
+    if (next_group_ < groups.size()) continue;  // the batch is full
+    ++next_field_;
+    next_group_ = 0;
   }
   list_.first_unit.push_back(static_cast<std::uint32_t>(list_.blade_units.size()));
 }
 
-const DrawList& DrawLister::list(const Pose& pose, const CameraView& camera) {
+const DrawList& DrawLister::next() {
+  list_.limbs.clear();
+  list_.blocks.clear();
+  list_.block_scale.clear();
+  list_.chunks.clear();
+  list_.blade_units.clear();
+  list_.first_unit.clear();
+  list_.vertices = 0;
   list_.triangles = 0;
-  std::vector<Part> parts(world_.instances.size());
-  tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t i) { list_instance(i, pose, camera, parts[i]); });
-  gather(parts);
-  list_grass(pose, camera);
+  bool full = false;
+  while (!full && (next_part_ < waiting_.size() || next_instance_ < world_.instances.size())) {
+    if (next_part_ == waiting_.size()) list_wave();
+    while (!full && next_part_ < waiting_.size()) {
+      const std::size_t vertices = waiting_[next_part_].blocks.size() * vertex_block;
+      full = list_.vertices > 0 && list_.vertices + vertices > most_vertices_;
+      if (!full) append(waiting_[next_part_++]);
+    }
+  }
+  list_.mesh_chunks = static_cast<std::uint32_t>(list_.chunks.size());
+  if (full)
+    list_.first_unit.assign(blades_.fields.size() + 1, 0);
+  else
+    list_grass();
   return list_;
 }
 

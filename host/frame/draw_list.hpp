@@ -1,5 +1,6 @@
 // What one frame poses and draws of a detail layout: sections and groups of blades inside the view, thinned by their
-// distance. Made anew from (world, pose, camera); nothing is carried over from an earlier frame.
+// distance. Made anew from (world, pose, camera); nothing is carried over from an earlier frame. A frame that poses
+// more vertices than the device should hold at once is listed in batches.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,9 @@ struct BladeLayout {
 };
 BladeLayout lay_out_blades(const World& world);
 
+/// One batch.
 struct DrawList {
+  std::vector<LimbPose> limbs;        // of its instances
   std::vector<PosedBlock> blocks;     // of meshes, in the order of the posed vertices
   std::vector<float> block_scale;     // of each block's leaves about their middles; empty unless thinned
   std::vector<TriangleChunk> chunks;  // meshes first
@@ -38,21 +41,54 @@ struct DrawList {
 
 class DrawLister {
  public:
-  /// All must outlive the lister. `thinned` false: whatever is in view is listed whole.
-  DrawLister(const World& world, const DetailLayout& layout, const BladeLayout& blades, bool thinned);
-  /// The list of one frame; valid until the next call.
-  const DrawList& list(const Pose& pose, const CameraView& camera);
+  /// All must outlive the lister. `thinned` false: whatever is in view is listed whole. `most_vertices`: of a batch,
+  /// unless a single instance or group of blades has more.
+  DrawLister(const World& world, const DetailLayout& layout, const BladeLayout& blades, bool thinned,
+             std::uint32_t most_vertices = 0xffffffffu);
+  /// Starts a frame. `pose` without the limbs of plants; it must live as long as the frame is listed.
+  void begin(const Pose& pose, const CameraView& camera);
+  /// The next batch, which may be empty; valid until the next call.
+  const DrawList& next();
+  /// Whether something is left to be listed.
+  bool more() const;
 
  private:
-  struct Part;  // what one instance adds
-  void list_instance(std::size_t i, const Pose& pose, const CameraView& camera, Part& part) const;
-  void gather(std::vector<Part>& parts);
-  void list_grass(const Pose& pose, const CameraView& camera);
+  /// What one instance adds; vertices and limbs count from its own.
+  struct Part {
+    std::vector<LimbPose> limbs;
+    std::vector<PosedBlock> blocks;
+    std::vector<float> block_scale;
+    std::vector<TriangleChunk> chunks;
+    std::uint64_t triangles = 0;
+  };
+  /// What is nearer hides what comes later, which then costs less.
+  void order_nearest_first();
+  void list_instance(std::size_t i, Part& part) const;
+  void list_section(const DetailSection& section, const Instance& instance, const std::vector<float>& areas,
+                    Part& part) const;
+  void list_wave();
+  void append(Part& part);
+  void list_group(std::size_t field, const BladeGroup& group);
+  void list_grass();
+
+  struct Place {
+    double distance = 0;  // from the eye, m
+    std::uint32_t index = 0;
+  };
 
   const World& world_;
   const DetailLayout& layout_;
   const BladeLayout& blades_;
   bool thinned_;
+  std::uint32_t most_vertices_;
+  const Pose* pose_ = nullptr;
+  CameraView camera_{};
+  std::size_t next_instance_ = 0, next_field_ = 0, next_group_ = 0;
+  std::vector<Place> instances_;            // nearest first
+  std::vector<std::vector<Place>> groups_;  // per field, nearest first
+  std::vector<Part> waiting_;               // listed, and not yet part of a batch, from next_part_ on
+  std::size_t next_part_ = 0;
+  std::vector<float> widths_;
   DrawList list_;
 };
 

@@ -38,10 +38,13 @@ CameraView with_guard(CameraView camera, int guard) {
 }  // namespace
 
 struct FrameRunner::Impl {
-  Impl(Device& the_device, const World& the_world);
+  Impl(Device& the_device, const World& the_world, std::uint32_t most_posed_vertices);
   void choose(const Methods& methods);
   void draw();
-  void pose_everything();
+  void draw_seen();
+  void upload_everything();
+  void pose_everything(const Pose& whole);
+  void resolve_batch();
   void shade();
   const Geometry& drawn() const { return seen ? seen->geometry() : geometry; }
 
@@ -50,10 +53,12 @@ struct FrameRunner::Impl {
   Plan plan;
   int guard = 0;                     // pixels drawn around the image
   std::optional<SeenGeometry> seen;  // unless everything is drawn
-  Geometry geometry;                 // else of everything
+  Geometry geometry;                 // of everything, once that is asked for
   std::vector<SwaySeries> series;    // per World::grass
   Pose pose;                         // of the last frame, and the camera that saw it, guard included
   CameraView camera{};
+  std::uint64_t drawn_triangles = 0;
+  Batch batch;  // the one that was drawn last
   Buffer<LimbPose> limbs;
   VisibilityBuffer visible;
   FragmentPlanes planes;
@@ -65,20 +70,18 @@ struct FrameRunner::Impl {
   std::optional<VisibilityPasses> visibility;
 };
 
-FrameRunner::Impl::Impl(Device& the_device, const World& the_world) : device(the_device), world(the_world) {
+FrameRunner::Impl::Impl(Device& the_device, const World& the_world, std::uint32_t most_posed_vertices)
+    : device(the_device), world(the_world) {
   owners = upload_owners(device, world.owners);
   if (world.scene.detail == "brute")
-    geometry = upload_geometry(device, world);
+    upload_everything();
   else
-    seen.emplace(device, world, world.scene.detail == "thinned");
+    seen.emplace(device, world, world.scene.detail == "thinned", most_posed_vertices);
   const bool mesh = !world.instances.empty();
   const bool grass =
       std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; });
-  if (mesh && !seen) pose_mesh.emplace(device);
-  if (grass) {
-    if (!seen) pose_grass.emplace(device);
+  if (grass)
     for (const ModalSeries& response : world.dynamics->grass) series.push_back(upload_series(device, response));
-  }
   rasterise.emplace(device, mesh, grass, device.info().atomic64);
   choose(world.scene.methods);
 }
@@ -104,37 +107,62 @@ void FrameRunner::Impl::choose(const Methods& methods) {
 }
 
 void FrameRunner::Impl::draw() {
-  if (seen)
-    seen->pose(pose, camera, series);
-  else
-    pose_everything();
+  if (seen) return draw_seen();
+  pose_everything(pose);
+  drawn_triangles = 0;
+  for (const TriangleChunk& chunk : geometry.chunks) drawn_triangles += chunk.count;
   rasterise->run(drawn().triangles, drawn().posed, camera, visible);
 }
 
-void FrameRunner::Impl::pose_everything() {
+void FrameRunner::Impl::draw_seen() {
+  seen->begin(pose, camera);
+  batch = {};
+  drawn_triangles = 0;
+  while (true) {
+    batch.last = !seen->pose_next(series);
+    drawn_triangles += seen->list().triangles;
+    rasterise->run(drawn().triangles, drawn().posed, camera, visible, batch.first);
+    if (batch.last) return;
+    resolve_batch();  // the next one overwrites its vertices
+    batch.first = false;
+  }
+}
+
+void FrameRunner::Impl::upload_everything() {
+  geometry = upload_geometry(device, world);
+  if (geometry.has_mesh()) pose_mesh.emplace(device);
+  if (geometry.has_grass()) pose_grass.emplace(device);
+}
+
+void FrameRunner::Impl::pose_everything(const Pose& whole) {
   if (pose_mesh) {
-    if (limbs.size() != pose.limbs.size()) limbs = Buffer<LimbPose>(device, pose.limbs.size(), "limb poses");
-    limbs.write(pose.limbs);
+    if (limbs.size() != whole.limbs.size()) limbs = Buffer<LimbPose>(device, whole.limbs.size(), "limb poses");
+    limbs.write(whole.limbs);
     pose_mesh->run(geometry.rest, geometry.blocks, limbs, geometry.posed);
   }
   for (std::size_t field = 0; field < geometry.fields.size(); ++field) {
     const FieldRange& range = geometry.fields[field];
     if (range.blades > 0)
-      pose_grass->run(geometry.blades, pose.grass[field], series[field], range.first_blade, range.blades,
+      pose_grass->run(geometry.blades, whole.grass[field], series[field], range.first_blade, range.blades,
                       range.first_vertex, geometry.posed);
   }
 }
 
-void FrameRunner::Impl::shade() {
+void FrameRunner::Impl::resolve_batch() {
   const auto* faces = visibility->baked_faces();
   const RestGeometry rest{drawn().blades,  static_cast<float>(-pose.eye.z),   &drawn().rest,
                           &drawn().blocks, seen ? seen->faces(faces) : faces, &drawn().mesh_grass};
-  resolve->run(visible, drawn().triangles, drawn().posed, rest, camera, planes);
+  resolve->run(visible, drawn().triangles, drawn().posed, rest, camera, planes, batch);
+}
+
+void FrameRunner::Impl::shade() {
+  resolve_batch();
   visibility->see(obscurance_view(camera));
   visibility->run(&pose, owners, planes);
 }
 
-FrameRunner::FrameRunner(Device& device, const World& world) : impl_(std::make_unique<Impl>(device, world)) {}
+FrameRunner::FrameRunner(Device& device, const World& world, std::uint32_t most_posed_vertices)
+    : impl_(std::make_unique<Impl>(device, world, most_posed_vertices)) {}
 FrameRunner::~FrameRunner() = default;
 
 void FrameRunner::choose(const Methods& methods) { impl_->choose(methods); }
@@ -142,7 +170,8 @@ const Plan& FrameRunner::plan() const { return impl_->plan; }
 
 Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   const Scene& scene = impl_->world.scene;
-  impl_->pose = pose_at(impl_->world, time, scene.camera.position);
+  const auto pose_now = impl_->seen ? pose_without_plants : pose_at;
+  impl_->pose = pose_now(impl_->world, time, scene.camera.position);
   impl_->device.take_pass_times();
   impl_->camera = with_guard(camera_view(scene.camera, scene.image, pixel_offset), impl_->guard);
   impl_->draw();
@@ -168,8 +197,15 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
 
 void FrameRunner::shade_again() { impl_->shade(); }
 
+std::uint64_t FrameRunner::drawn_triangles() const { return impl_->drawn_triangles; }
+
 PosedGeometry FrameRunner::posed_geometry() const {
-  return read_geometry(impl_->drawn(), impl_->world.scene.camera.position);
+  Impl& impl = *impl_;
+  if (impl.seen) {
+    if (impl.geometry.vertices == 0) impl.upload_everything();
+    impl.pose_everything(pose_at(impl.world, impl.pose.time, impl.pose.eye));
+  }
+  return read_geometry(impl.geometry, impl.pose.eye);
 }
 
 }  // namespace understory

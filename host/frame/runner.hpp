@@ -13,7 +13,8 @@ namespace understory {
 class FrameRunner {
  public:
   /// Uploads what does not change with time. `device` and `world` must outlive the runner.
-  FrameRunner(Device& device, const World& world);
+  /// `most_posed_vertices`: at a time, unless everything is drawn (`detail: brute`).
+  FrameRunner(Device& device, const World& world, std::uint32_t most_posed_vertices = 1u << 24);
   ~FrameRunner();
 
   /// Changes the visibility methods (world.scene.methods at first); programs of new methods are built, of old ones
@@ -27,8 +28,10 @@ class FrameRunner {
   /// Resolves and shades the last rendered frame once more, with the methods chosen since; nothing is read back, so
   /// that the passes can be timed. The methods' guard bands must be that frame's.
   void shade_again();
-  /// The triangles of the last rendered frame.
+  /// All triangles at the time of the last rendered frame, whether it drew them or not (`detail`).
   PosedGeometry posed_geometry() const;
+  /// How many of them there were, those without area that fill up chunks included.
+  std::uint64_t drawn_triangles() const;
 
  private:
   struct Impl;

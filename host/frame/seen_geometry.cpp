@@ -17,14 +17,20 @@ void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, cons
   if (!rows.empty()) buffer.write(std::span<const T>(rows));
 }
 
+/// A quarter is left for what the next frame may see more.
+std::uint32_t vertices_that_fit(const Device& device) {
+  const std::uint64_t vertices = device.info().max_allocation_mib * 1024 * 1024 / sizeof(std::array<float, 4>);
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(vertices / 5 * 4, 0xffffffffu));
+}
+
 }  // namespace
 
-SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned)
+SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned, std::uint32_t most_vertices)
     : device_(device),
       thinned_(thinned),
       layout_(lay_out_detail(world)),
       blades_(lay_out_blades(world)),
-      lister_(world, layout_, blades_, thinned) {
+      lister_(world, layout_, blades_, thinned, std::min(most_vertices, vertices_that_fit(device))) {
   upload(layout_, world);
   if (!world.instances.empty()) pose_mesh_.emplace(device, thinned);
   if (std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; }))
@@ -49,8 +55,13 @@ void SeenGeometry::upload(const DetailLayout& layout, const World& world) {
   geometry_.mesh_grass = upload_mesh_grass(device_, world);
 }
 
-void SeenGeometry::pose(const Pose& pose, const CameraView& camera, const std::vector<SwaySeries>& series) {
-  list_ = &lister_.list(pose, camera);
+void SeenGeometry::begin(const Pose& pose, const CameraView& camera) {
+  pose_ = &pose;
+  lister_.begin(pose, camera);
+}
+
+bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
+  list_ = &lister_.next();
   rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks");
   rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks");
   geometry_.triangles.mesh_chunks = list_->mesh_chunks;
@@ -60,7 +71,7 @@ void SeenGeometry::pose(const Pose& pose, const CameraView& camera, const std::v
   if (geometry_.posed.points.size() < list_->vertices)
     geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
   if (!list_->blocks.empty()) {
-    rewrite(device_, limbs_, pose.limbs, "limb poses");
+    rewrite(device_, limbs_, list_->limbs, "limb poses");
     if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves");
     pose_mesh_->run(geometry_.rest, geometry_.blocks, list_->blocks.size(), limbs_, thinned_ ? &enlarged_ : nullptr,
                     geometry_.posed);
@@ -69,8 +80,10 @@ void SeenGeometry::pose(const Pose& pose, const CameraView& camera, const std::v
   for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
     const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
     if (count > 0)
-      pose_grass_->run(geometry_.blades, pose.grass[field], series[field], blade_units_, first, count, geometry_.posed);
+      pose_grass_->run(geometry_.blades, pose_->grass[field], series[field], blade_units_, first, count,
+                       geometry_.posed);
   }
+  return lister_.more();
 }
 
 const Buffer<std::array<std::uint32_t, 2>>* SeenGeometry::faces(

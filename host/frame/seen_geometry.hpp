@@ -12,18 +12,25 @@
 
 namespace understory {
 
+/// Posed vertices of 256 MiB.
+inline constexpr std::uint32_t usual_batch = 1u << 24;
+
 class SeenGeometry {
  public:
   /// Uploads every prototype and blade once. `world` must outlive it. `thinned` false: pictures are those of
   /// upload_geometry.
-  SeenGeometry(Device& device, const World& world, bool thinned);
+  /// Vertices are posed in batches of at most `most_vertices` and of what the device can hold in one buffer.
+  SeenGeometry(Device& device, const World& world, bool thinned, std::uint32_t most_vertices = usual_batch);
   SeenGeometry(const SeenGeometry&) = delete;
   SeenGeometry& operator=(const SeenGeometry&) = delete;
 
-  /// Poses what `camera` sees; geometry() then holds its vertices and chunks. `series`: per World::grass.
-  void pose(const Pose& pose, const CameraView& camera, const std::vector<SwaySeries>& series);
+  /// Starts a frame of `pose` (without the limbs of plants), which must live until its last batch is posed.
+  void begin(const Pose& pose, const CameraView& camera);
+  /// Poses the next batch of what the camera sees; geometry() then holds its vertices and chunks. `series`: per
+  /// World::grass. Returns whether more follow.
+  bool pose_next(const std::vector<SwaySeries>& series);
   const Geometry& geometry() const { return geometry_; }
-  /// The list of the last pose.
+  /// The last batch.
   const DrawList& list() const { return *list_; }
   /// CrownBakedTables::faces in the order of this geometry's triangles; null for null.
   const Buffer<std::array<std::uint32_t, 2>>* faces(const Buffer<std::array<std::uint32_t, 2>>* of_prototypes);
@@ -36,6 +43,7 @@ class SeenGeometry {
   DetailLayout layout_;
   BladeLayout blades_;
   DrawLister lister_;
+  const Pose* pose_ = nullptr;
   const DrawList* list_ = nullptr;
   Geometry geometry_;
   EnlargedLeaves enlarged_;

@@ -27,9 +27,9 @@ RasterisePass::RasterisePass(Device& device, bool mesh, bool grass, bool wide_at
 }
 
 void RasterisePass::run(const TriangleTables& triangles, const PosedVertices& posed, const CameraView& camera,
-                        VisibilityBuffer& visible) {
+                        VisibilityBuffer& visible, bool clear) {
   const auto items = static_cast<std::uint32_t>(visible.words.size() / words_per_item_);
-  clear_.launch(items, 256, visible.words, items);
+  if (clear) clear_.launch(items, 256, visible.words, items);
   const std::size_t local = triangles_per_chunk / lanes_;
   // Without 64-bit atomics all depths come first, then all triangles at those depths.
   for (std::size_t pass = 0; pass < std::max(rasterise_mesh_.size(), rasterise_grass_.size()); ++pass) {

@@ -17,9 +17,9 @@ class RasterisePass {
   /// `mesh`, `grass`: which kinds of triangles the scene has; kernels of an absent kind are not built.
   /// `wide_atomics` false: the two-pass form for devices without 64-bit atomics; same pixels.
   RasterisePass(Device& device, bool mesh, bool grass, bool wide_atomics);
-  /// Clears `visible` and draws every triangle of the kinds this pass was made for.
+  /// Draws every triangle of the kinds this pass was made for, into a cleared buffer or over what it holds.
   void run(const TriangleTables& triangles, const PosedVertices& posed, const CameraView& camera,
-           VisibilityBuffer& visible);
+           VisibilityBuffer& visible, bool clear = true);
 
  private:
   std::size_t lanes_;

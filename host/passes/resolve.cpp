@@ -20,16 +20,16 @@ ResolvePass::ResolvePass(Device& device, const ResolvedPlanes& write, bool wide_
       kernel_(device, "resolve", "resolve", "resolve", options(write, wide_atomics)) {}
 
 void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& triangles, const PosedVertices& posed,
-                      const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes) {
+                      const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes, const Batch& batch) {
   const auto fragments = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   require_size("resolve", "fragments", planes.fragments, fragments);
   require_size("resolve", "visible", visible.words.size(), 2 * fragments);
   const auto padded = static_cast<std::uint32_t>(planes.padded_fragments);
   const auto launch = [&](const auto&... more) {
     kernel_.launch(padded / lanes_, 64, visible.words, triangles.chunks, triangles.mesh_chunks, triangles.index_a,
-                   triangles.index_b, triangles.index_c, posed.points, camera, padded, planes.position_x,
-                   planes.position_y, planes.position_z, planes.normal_x, planes.normal_y, planes.normal_z,
-                   planes.depth, planes.owner, planes.validity, more...);
+                   triangles.index_b, triangles.index_c, posed.points, camera, padded, std::uint32_t{batch.first},
+                   std::uint32_t{batch.last}, planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
+                   planes.normal_y, planes.normal_z, planes.depth, planes.owner, planes.validity, more...);
   };
   const auto with_texel = [&](const auto&... more) {
     if (!write_.texel) return launch(more...);

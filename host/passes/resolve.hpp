@@ -24,14 +24,21 @@ struct RestGeometry {
   const MeshGrass* mesh_grass = nullptr;
 };
 
+/// Triangles of a frame that are posed and drawn a part at a time: which part this is.
+struct Batch {
+  bool first = true, last = true;
+};
+
 class ResolvePass {
  public:
   /// `wide_atomics`: as the visibility buffer was rasterised.
   ResolvePass(Device& device, const ResolvedPlanes& write, bool wide_atomics);
+  /// After the first batch only fragments that a later one covers are written; before the last, `visible` forgets which
+  /// triangles it saw and keeps their depths.
   /// `planes` hold what was chosen. `rest.vertices` and `rest.blocks` are needed for rest_point only,
   /// `rest.faces` for texel only, `rest.mesh_grass` for grass_height only.
   void run(const VisibilityBuffer& visible, const TriangleTables& triangles, const PosedVertices& posed,
-           const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes);
+           const RestGeometry& rest, const CameraView& camera, FragmentPlanes& planes, const Batch& batch = {});
 
  private:
   ResolvedPlanes write_;

@@ -29,6 +29,11 @@ static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t
   return (uint)pixels[pixel];
 }
 
+// Keeps the depth: nearer triangles of a later batch still show.
+static inline void forget_triangle(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
+  pixels[pixel] |= NO_TRIANGLE;
+}
+
 #else
 // Plane 0: depth bits; plane 1: triangle.
 typedef uint VisibleTriangle;
@@ -55,6 +60,10 @@ static inline int hidden(global const VisibleTriangle* pixels, size_t pixel, flo
 
 static inline uint visible_triangle(global const VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
   return pixels[pixels_count + pixel];
+}
+
+static inline void forget_triangle(global VisibleTriangle* pixels, size_t pixels_count, size_t pixel) {
+  pixels[pixels_count + pixel] = NO_TRIANGLE;
 }
 #endif
 

@@ -9,11 +9,11 @@
 namespace understory {
 namespace {
 
-Frame rendered(Scene scene, const char* detail, int index = 0, double time = 0.5) {
+Frame rendered(Scene scene, const char* detail, std::uint32_t most_posed_vertices = 1u << 24) {
   scene.detail = detail;
   const World world = build_world(scene);
   Device device;
-  return FrameRunner(device, world).render(index, time);
+  return FrameRunner(device, world, most_posed_vertices).render(0, 0.5);
 }
 
 TEST(Detail, CulledFramesAreTheBytesOfBruteOnes) {
@@ -33,6 +33,14 @@ TEST(Detail, CulledFramesAreTheBytesOfBruteOnesInAStormByEveryLookUp) {
   scene.methods.near = "obscurance-line";
   scene.methods.near_field.guard = 7;
   EXPECT_EQ(differing_planes(rendered(scene, "brute"), rendered(scene, "culled")), std::vector<std::string>());
+}
+
+TEST(Detail, FramesDrawnInBatchesAreTheSame) {
+  Scene scene = meadow_view();
+  scene.methods.tree = "crown-field";
+  for (const char* detail : {"culled", "thinned"})
+    EXPECT_EQ(differing_planes(rendered(scene, detail), rendered(scene, detail, 3000)), std::vector<std::string>())
+        << detail;
 }
 
 TEST(Detail, ThinnedFramesDependOnSceneAndTimeAlone) {

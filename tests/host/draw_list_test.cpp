@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 
 #include "host/frame/camera_view.hpp"
@@ -141,10 +142,14 @@ TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
   const World world = windy_meadow();
   const DetailLayout layout = lay_out_detail(world);
   const BladeLayout blades = lay_out_blades(world);
-  const Pose pose = pose_at(world, 1, world.scene.camera.position);
+  const Pose pose = pose_without_plants(world, 1, world.scene.camera.position);
   const CameraView view = camera_view(world.scene.camera, world.scene.image, glm::dvec2(0));
-  const DrawList whole = DrawLister(world, layout, blades, false).list(pose, view);
-  const DrawList thinned = DrawLister(world, layout, blades, true).list(pose, view);
+  const auto listed = [&](bool thinning, const CameraView& camera) {
+    DrawLister lister(world, layout, blades, thinning);
+    lister.begin(pose, camera);
+    return lister.next();
+  };
+  const DrawList whole = listed(false, view), thinned = listed(true, view);
   EXPECT_LT(thinned.triangles, whole.triangles);
   EXPECT_TRUE(whole.block_scale.empty());
   EXPECT_EQ(thinned.block_scale.size(), thinned.blocks.size());
@@ -159,9 +164,55 @@ TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
     }
   Camera away = world.scene.camera;
   away.target = 2.0 * away.position - away.target + glm::dvec3(0, 0, 50);  // the sky behind
-  const DrawList behind =
-      DrawLister(world, layout, blades, false).list(pose, camera_view(away, world.scene.image, glm::dvec2(0)));
+  const DrawList behind = listed(false, camera_view(away, world.scene.image, glm::dvec2(0)));
   EXPECT_LT(behind.triangles, whole.triangles / 4);
+}
+
+TEST(DrawList, BatchesHoldTogetherWhatOneListHolds) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world);
+  const BladeLayout blades = lay_out_blades(world);
+  const Pose pose = pose_without_plants(world, 1, world.scene.camera.position);
+  const CameraView view = camera_view(world.scene.camera, world.scene.image, glm::dvec2(0));
+  DrawLister together(world, layout, blades, false), apart(world, layout, blades, false, 5000);
+  together.begin(pose, view);
+  apart.begin(pose, view);
+  const DrawList& whole = together.next();
+  EXPECT_FALSE(together.more());
+  std::uint64_t triangles = 0;
+  std::size_t batches = 0, units = 0, blocks = 0;
+  while (apart.more()) {
+    const DrawList& batch = apart.next();
+    ++batches;
+    triangles += batch.triangles;
+    units += batch.blade_units.size();
+    blocks += batch.blocks.size();
+    ASSERT_EQ(batch.first_unit.size(), world.grass.size() + 1);
+    EXPECT_EQ(batch.first_unit.back(), batch.blade_units.size());
+    for (const PosedBlock& block : batch.blocks) ASSERT_LT(block.limb_pose, batch.limbs.size());
+    for (const TriangleChunk& chunk : batch.chunks) ASSERT_LT(chunk.first_vertex, batch.vertices);
+  }
+  EXPECT_GT(batches, 3u);
+  EXPECT_EQ(triangles, whole.triangles);
+  EXPECT_EQ(units, whole.blade_units.size());
+  EXPECT_EQ(blocks, whole.blocks.size());
+}
+
+TEST(DrawList, PlantsPosedOneByOneAreThoseOfTheWholePose) {
+  const World world = windy_meadow();
+  const glm::dvec3 eye(1, 2, 3);
+  const Pose whole = pose_at(world, 4, eye), without = pose_without_plants(world, 4, eye);
+  ASSERT_EQ(whole.crowns.size(), without.crowns.size());
+  for (std::size_t i = 0; i < whole.crowns.size(); ++i)
+    EXPECT_EQ(whole.crowns[i].sphere_centre, without.crowns[i].sphere_centre);
+  for (std::size_t i = 0; i < world.instances.size(); ++i) {
+    const bool plant = world.instances[i].role == Instance::Role::plant;
+    const std::vector<LimbPose> limbs = plant ? plant_limbs_at(world, i, 4, eye) : std::vector<LimbPose>();
+    const std::size_t count = world.prototypes[world.instances[i].prototype].limbs.size();
+    const LimbPose* expected = &whole.limbs[whole.first_limb[i]];
+    const LimbPose* found = plant ? limbs.data() : &without.limbs[without.first_limb[i]];
+    EXPECT_EQ(std::memcmp(expected, found, count * sizeof(LimbPose)), 0) << "instance " << i;
+  }
 }
 
 }  // namespace
