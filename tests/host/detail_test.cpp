@@ -9,38 +9,34 @@
 namespace understory {
 namespace {
 
-Frame rendered(Scene scene, const char* detail, std::uint32_t most_posed_vertices = 1u << 24) {
-  scene.detail = detail;
-  const World world = build_world(scene);
+/// A frame of `world`, whose level of detail it changes.
+Frame rendered(World& world, const char* detail, std::uint32_t most_posed_vertices = 1u << 24) {
+  world.scene.detail = detail;
   Device device;
   return FrameRunner(device, world, most_posed_vertices).render(0, 0.5);
 }
 
 TEST(Detail, CulledFramesAreTheBytesOfBruteOnes) {
-  Scene scene = meadow_view();
+  World world = build_world(meadow_view());
   for (const glm::dvec3 target : {glm::dvec3(-7, 2, 1.5), glm::dvec3(-4, -7, 1), glm::dvec3(3, -20, 4)}) {
-    scene.camera.target = target;
-    const Frame brute = rendered(scene, "brute");
-    EXPECT_EQ(differing_planes(brute, rendered(scene, "culled")), std::vector<std::string>())
+    world.scene.camera.target = target;
+    const Frame brute = rendered(world, "brute");
+    EXPECT_EQ(differing_planes(brute, rendered(world, "culled")), std::vector<std::string>())
         << "towards " << target.x << " " << target.y << " " << target.z;
   }
 }
 
-TEST(Detail, CulledFramesAreTheBytesOfBruteOnesInAStormByEveryLookUp) {
+TEST(Detail, FramesDrawnInBatchesAreTheSameInAStormByEveryLookUp) {
   Scene scene = meadow_view();
   scene.wind.speed = 20;
   scene.methods.tree = "crown-field";  // reads where a fragment was at rest
   scene.methods.near = "obscurance-line";
   scene.methods.near_field.guard = 7;
-  EXPECT_EQ(differing_planes(rendered(scene, "brute"), rendered(scene, "culled")), std::vector<std::string>());
-}
-
-TEST(Detail, FramesDrawnInBatchesAreTheSame) {
-  Scene scene = meadow_view();
-  scene.methods.tree = "crown-field";
-  for (const char* detail : {"culled", "thinned"})
-    EXPECT_EQ(differing_planes(rendered(scene, detail), rendered(scene, detail, 3000)), std::vector<std::string>())
-        << detail;
+  World world = build_world(scene);
+  const Frame brute = rendered(world, "brute");
+  EXPECT_EQ(differing_planes(brute, rendered(world, "culled")), std::vector<std::string>());
+  EXPECT_EQ(differing_planes(brute, rendered(world, "culled", 3000)), std::vector<std::string>());
+  EXPECT_EQ(differing_planes(rendered(world, "thinned"), rendered(world, "thinned", 3000)), std::vector<std::string>());
 }
 
 TEST(Detail, ThinnedFramesDependOnSceneAndTimeAlone) {
@@ -52,6 +48,21 @@ TEST(Detail, ThinnedFramesDependOnSceneAndTimeAlone) {
   const Frame first = runner.render(0, 0.5);
   runner.render(1, 3.5);
   EXPECT_EQ(differing_planes(first, runner.render(0, 0.5)), std::vector<std::string>());
+}
+
+TEST(Detail, DumpsHoldWhatIsOutOfView) {
+  World world = build_world(meadow_view());
+  const auto triangles = [&](const char* detail) {
+    world.scene.detail = detail;
+    Device device;
+    FrameRunner runner(device, world);
+    runner.render(0, 0.5);
+    return runner.posed_geometry();
+  };
+  const PosedGeometry brute = triangles("brute"), thinned = triangles("thinned");
+  EXPECT_EQ(brute.positions, thinned.positions);
+  EXPECT_EQ(brute.triangles, thinned.triangles);
+  EXPECT_EQ(brute.owner, thinned.owner);
 }
 
 /// Share of the pixels that an owner class covers, and mean V over all of the picture.
@@ -76,7 +87,8 @@ TEST(Detail, ThinnedCrownsAndGrassCoverAsMuchAsBefore) {
   scene.camera.position = {-7, -60, 6};
   scene.camera.target = {-7, 2, 2};
   scene.camera.vertical_fov = 0.25;
-  const Look brute = look_of(rendered(scene, "brute")), thinned = look_of(rendered(scene, "thinned"));
+  World world = build_world(scene);
+  const Look brute = look_of(rendered(world, "brute")), thinned = look_of(rendered(world, "thinned"));
   for (std::size_t surface = 0; surface < std::size(brute.share); ++surface)
     EXPECT_NEAR(thinned.share[surface], brute.share[surface], 0.01)
         << surface_class_name(static_cast<SurfaceClass>(surface));
