@@ -89,38 +89,32 @@ double baked_reference(const BenchFragments& all, const BenchFragment& f) {
 }  // namespace
 
 KernelCase crown_field_case() {
-  return {"crown-field",
-          7,
-          1,
-          75,
-          1e-5,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            add_rest_planes(device, all);
-            const auto tables = std::make_shared<CrownFieldTables>(field_tables(device, all));
-            return [&all, &visibility, tables, pass = std::make_shared<CrownFieldPass>(device)] {
-              pass->run(all.planes, *tables, visibility);
-            };
-          },
-          field_reference};
+  return visibility_case(
+      "crown-field", 1e-5,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        add_rest_planes(device, all);
+        const auto tables = std::make_shared<CrownFieldTables>(field_tables(device, all));
+        return [&all, &visibility, tables, pass = std::make_shared<CrownFieldPass>(device)] {
+          pass->run(all.planes, *tables, visibility);
+        };
+      },
+      field_reference);
 }
 
 KernelCase crown_baked_case() {
-  return {"crown-baked",
-          2,
-          1,
-          16,
-          1e-5,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            add_texel_planes(device, all);
-            const std::vector<std::uint32_t> values(texel_count, texel_corners[0] | texel_corners[1] << 8 |
-                                                                     texel_corners[2] << 16 | texel_corners[3] << 24);
-            const auto texels =
-                std::make_shared<Buffer<std::uint32_t>>(device, std::span<const std::uint32_t>(values), "texels");
-            return [&all, &visibility, texels, pass = std::make_shared<CrownBakedPass>(device)] {
-              pass->run(all.planes, *texels, visibility);
-            };
-          },
-          baked_reference};
+  return visibility_case(
+      "crown-baked", 1e-5,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        add_texel_planes(device, all);
+        const std::vector<std::uint32_t> values(
+            texel_count, texel_corners[0] | texel_corners[1] << 8 | texel_corners[2] << 16 | texel_corners[3] << 24);
+        const auto texels =
+            std::make_shared<Buffer<std::uint32_t>>(device, std::span<const std::uint32_t>(values), "texels");
+        return [&all, &visibility, texels, pass = std::make_shared<CrownBakedPass>(device)] {
+          pass->run(all.planes, *texels, visibility);
+        };
+      },
+      baked_reference);
 }
 
 }  // namespace understory

@@ -33,21 +33,18 @@ struct Planes {
 }  // namespace
 
 KernelCase environment_case() {
-  return {"environment",
-          9,
-          3,
-          330,
-          1e-5,
-          [](Device& device, BenchFragments& all, Buffer<float>& out) {
-            const auto planes = std::make_shared<Planes>(device, all);
-            return [&all, &out, planes] {
-              std::swap(planes->light[0], out);
-              planes->pass.run(all.planes, all.owners, planes->visibility_of_all, &planes->cones, planes->tables, {},
-                               planes->light);
-              std::swap(planes->light[0], out);
-            };
-          },
-          [](const BenchFragments&, const BenchFragment&) { return double(radiance) * double(visibility); }};
+  return visibility_case(
+      "environment", 1e-5,
+      [](Device& device, BenchFragments& all, Buffer<float>& out) {
+        const auto planes = std::make_shared<Planes>(device, all);
+        return [&all, &out, planes] {
+          std::swap(planes->light[0], out);
+          planes->pass.run(all.planes, all.owners, planes->visibility_of_all, &planes->cones, planes->tables, {},
+                           planes->light);
+          std::swap(planes->light[0], out);
+        };
+      },
+      [](const BenchFragments&, const BenchFragment&) { return double(radiance) * double(visibility); });
 }
 
 }  // namespace understory

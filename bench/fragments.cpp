@@ -5,14 +5,16 @@
 #include <cmath>
 
 #include "sim/frame.hpp"
-#include "sim/random.hpp"
 
 namespace understory {
 namespace {
 
-constexpr std::size_t row_length = 2048, tile = 16;
+constexpr std::size_t tile = 16;
 constexpr std::uint32_t crown_count = 64;
 constexpr std::uint64_t seed = 7;
+
+/// Few fragments are a small picture, not a strip.
+std::size_t row_length_of(std::size_t fragments) { return fragments < (1 << 15) ? 128 : 2048; }
 
 std::vector<Owner> make_owners() {
   std::vector<Owner> rows(1);
@@ -77,9 +79,11 @@ GroundCover make_cover() {
 
 double BenchFragments::cover_at(double x, double y) { return 0.5 + 0.002 * x - 0.001 * y; }
 
-BenchFragments::BenchFragments(Device& device, std::size_t fragments)
-    : planes(allocate_planes(device, row_length, (fragments + row_length - 1) / row_length, true)),
+BenchFragments::BenchFragments(Device& device, std::size_t fragments, Cover filled_by)
+    : planes(allocate_planes(device, row_length_of(fragments),
+                             (fragments + row_length_of(fragments) - 1) / row_length_of(fragments), true)),
       cover(device, make_cover()),
+      filled_by_(filled_by),
       owner_rows_(make_owners()),
       crown_rows_(make_crowns()),
       sphere_rows_(make_spheres(crown_rows_)) {
@@ -89,12 +93,18 @@ BenchFragments::BenchFragments(Device& device, std::size_t fragments)
   upload();
 }
 
+std::uint32_t BenchFragments::owner_of_tile(Random& random) const {
+  const auto any = 1 + static_cast<std::uint32_t>(random.below(owner_rows_.size() - 1));
+  if (filled_by_ == Cover::grass) return crown_count + 1;
+  return filled_by_ == Cover::ground ? crown_count + 2 : any;
+}
+
 BenchFragment BenchFragments::at(std::size_t index) const {
-  const std::size_t column = index % row_length / tile, row = index / row_length / tile;
+  const std::size_t row_length = planes.row_length, column = index % row_length / tile, row = index / row_length / tile;
   Random of_tile(seed, stream_of("tile"), row * row_length + column);
   Random own(seed, stream_of("fragment"), index);
   BenchFragment fragment;
-  fragment.owner = 1 + static_cast<std::uint32_t>(of_tile.below(owner_rows_.size() - 1));
+  fragment.owner = owner_of_tile(of_tile);
   const glm::vec3 direction = unit_vector(of_tile);
   const auto share = static_cast<float>(of_tile.uniform());
   fragment.normal = glm::normalize(direction + 0.9f * unit_vector(own));

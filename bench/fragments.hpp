@@ -8,6 +8,7 @@
 #include "host/passes/ambient.hpp"
 #include "host/passes/planes.hpp"
 #include "kernels/shared/records.h"
+#include "sim/random.hpp"
 
 namespace understory {
 
@@ -19,8 +20,11 @@ struct BenchFragment {
 
 class BenchFragments {
  public:
-  /// At least `fragments` of them, in whole rows of 2048.
-  BenchFragments(Device& device, std::size_t fragments);
+  /// What fills the picture: crowns and a little of the rest, or one surface everywhere.
+  enum class Cover { crowns, grass, ground };
+
+  /// At least `fragments` of them, in whole rows of 2048; below 32768 in rows of 128.
+  BenchFragments(Device& device, std::size_t fragments, Cover filled_by = Cover::crowns);
 
   BenchFragment at(std::size_t index) const;
   /// Height of `cover`'s visibility at a place within its extent: an affine function, which interpolation reproduces.
@@ -37,7 +41,10 @@ class BenchFragments {
   GroundCoverTable cover;
 
  private:
+  std::uint32_t owner_of_tile(Random& random) const;
   void upload();
+
+  Cover filled_by_;
 
   std::vector<Owner> owner_rows_;  // background, one per crown, blades, terrain
   std::vector<CrownRecord> crown_rows_;

@@ -51,16 +51,17 @@ double exact(const BenchFragment& f) {
 }  // namespace
 
 KernelCase grass_transmittance_case() {
-  return {"grass-transmittance", 6, 1, 150,
-          // Half a step where x or y is no whole number of steps, facing down, where V is over a dome of 0.01.
-          1e-3,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            const auto layer = std::make_shared<GrassLayerTable>(device, affine_layer(), false);
-            return [&, layer, pass = std::make_shared<GrassTransmittancePass>(device, false)] {
-              pass->run(all.planes, *layer, glm::dvec3(0), visibility);
-            };
-          },
-          [](const BenchFragments&, const BenchFragment& f) { return exact(f); }};
+  return visibility_case(
+      "grass-transmittance",
+      // Half a step where x or y is no whole number of steps, facing down, where V is over a dome of 0.01.
+      1e-3,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        const auto layer = std::make_shared<GrassLayerTable>(device, affine_layer(), false);
+        return [&, layer, pass = std::make_shared<GrassTransmittancePass>(device, false)] {
+          pass->run(all.planes, *layer, glm::dvec3(0), visibility);
+        };
+      },
+      [](const BenchFragments&, const BenchFragment& f) { return exact(f); });
 }
 
 }  // namespace understory

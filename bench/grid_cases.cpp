@@ -74,24 +74,22 @@ double reference(const BenchFragments& all, const BenchFragment& f, bool cone) {
 
 KernelCase grid_case(const std::string& method) {
   const bool cone = method == "grid-cone";
-  return {method,
-          cone ? 8 : 5,
-          2,
-          0,
-          1e-3,  // positions of 100 m in float, in samples of 0.6 m
-          [=](Device& device, BenchFragments& all, Buffer<float>& visibility) -> std::function<void()> {
-            const auto table =
-                std::make_shared<GridTable>(device, cone ? packed_cone(ball_grid()) : packed_share(ball_grid()));
-            table->place(records_of(all));
-            if (cone)
-              return [&, table, pass = std::make_shared<GridConePass>(device, method, "multiply")] {
-                pass->run(all.planes, all.owners, *table, visibility);
-              };
-            return [&, table, pass = std::make_shared<GridPass>(device, method)] {
-              pass->run(all.planes, all.owners, *table, visibility);
-            };
-          },
-          [cone](const BenchFragments& all, const BenchFragment& f) { return reference(all, f, cone); }};
+  return visibility_case(
+      method,
+      1e-3,  // positions of 100 m in float, in samples of 0.6 m
+      [=](Device& device, BenchFragments& all, Buffer<float>& visibility) -> std::function<void()> {
+        const auto table =
+            std::make_shared<GridTable>(device, cone ? packed_cone(ball_grid()) : packed_share(ball_grid()));
+        table->place(records_of(all));
+        if (cone)
+          return [&, table, pass = std::make_shared<GridConePass>(device, method, "multiply")] {
+            pass->run(all.planes, all.owners, *table, visibility);
+          };
+        return [&, table, pass = std::make_shared<GridPass>(device, method)] {
+          pass->run(all.planes, all.owners, *table, visibility);
+        };
+      },
+      [cone](const BenchFragments& all, const BenchFragment& f) { return reference(all, f, cone); });
 }
 
 }  // namespace understory

@@ -1,6 +1,8 @@
 // The table of kernel benchmarks. References are the shared formulas in double, fragment by fragment.
 #include "bench/kernel_cases.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -10,6 +12,7 @@
 #include "host/passes/grass_height.hpp"
 #include "host/passes/open_dome.hpp"
 #include "host/passes/reeves_blau.hpp"
+#include "host/passes/shells_cap.hpp"
 #include "host/passes/solid_angle.hpp"
 #include "host/passes/sphere_cap.hpp"
 #include "kernels/shared/crown_transmittance.h"
@@ -41,22 +44,17 @@ SurfaceClass class_of(const BenchFragments& all, const BenchFragment& fragment) 
 
 /// A method that shades fragments by their crown.
 template <typename Pass>
-KernelCase crown_case(const std::string& method, int planes_read, double flops,
-                      double (*reference)(const CrownRecord&, const BenchFragment&)) {
-  return {method,
-          planes_read,
-          2,
-          flops,
-          float_error,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<Pass>(device)] {
-              pass->run(all.planes, all.owners, all.crowns, visibility);
-            };
-          },
-          [reference](const BenchFragments& all, const BenchFragment& fragment) {
-            const CrownRecord* crown = crown_of(all, fragment);
-            return crown ? reference(*crown, fragment) : 1.0;
-          }};
+KernelCase crown_case(const std::string& method, double (*reference)(const CrownRecord&, const BenchFragment&)) {
+  return visibility_case(
+      method, float_error,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return
+            [&, pass = std::make_shared<Pass>(device)] { pass->run(all.planes, all.owners, all.crowns, visibility); };
+      },
+      [reference](const BenchFragments& all, const BenchFragment& fragment) {
+        const CrownRecord* crown = crown_of(all, fragment);
+        return crown ? reference(*crown, fragment) : 1.0;
+      });
 }
 
 double sphere_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
@@ -81,11 +79,8 @@ TransmittanceShell transmittance_shell(const CrownRecord& crown, bool dome) {
 
 /// `dome`: with the horizon in the model.
 KernelCase crown_transmittance_case(bool dome) {
-  return {
+  return visibility_case(
       std::string("crown-transmittance") + (dome ? "/dome" : ""),
-      8,
-      2,
-      dome ? 120.0 : 95.0,
       3e-5,  // tests/support/tolerances.hpp
       [dome](Device& device, BenchFragments& all, Buffer<float>& visibility) {
         std::vector<std::uint32_t> first{0};
@@ -113,7 +108,49 @@ KernelCase crown_transmittance_case(bool dome) {
         if (!fits.contains(crown->radius)) fits[crown->radius] = transmittance_shell(*crown, dome);
         const glm::dvec3 p = glm::dvec3(f.position) - glm::dvec3(crown->x, crown->y, crown->z), n(f.normal);
         return crown_transmittance(fits[crown->radius], p.x, p.y, p.z, n.x, n.y, n.z, dome);
-      }};
+      });
+}
+
+/// The whole crown and four spheres of half its size in it.
+KernelCase shells_cap_case() {
+  const auto shells_of = [](const CrownRecord& crown) {
+    std::vector<CrownRecord> shells{crown};
+    for (const auto& [x, y] : {std::pair{-0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}}) {
+      CrownRecord& shell = shells.emplace_back(crown);
+      shell.x += x * crown.radius;
+      shell.y += y * crown.radius;
+      shell.radius *= 0.7f;
+    }
+    return shells;
+  };
+  return visibility_case(
+      "shells-cap", float_error,
+      [shells_of](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        std::vector<std::uint32_t> first{0};
+        std::vector<CrownRecord> shells;
+        for (const CrownRecord& crown : all.crown_rows()) {
+          for (const CrownRecord& shell : shells_of(crown)) shells.push_back(shell);
+          first.push_back(static_cast<std::uint32_t>(shells.size()));
+        }
+        const auto starts =
+            std::make_shared<Buffer<std::uint32_t>>(device, std::span<const std::uint32_t>(first), "first shells");
+        const auto table =
+            std::make_shared<Buffer<CrownRecord>>(device, std::span<const CrownRecord>(shells), "shells");
+        return [&all, &visibility, starts, table, pass = std::make_shared<ShellsCapPass>(device, false)] {
+          pass->run(all.planes, all.owners, *starts, all.crown_rows().size(), *table, visibility);
+        };
+      },
+      [shells_of](const BenchFragments& all, const BenchFragment& f) {
+        const CrownRecord* crown = crown_of(all, f);
+        if (!crown) return 1.0;
+        const std::vector<CrownRecord> shells = shells_of(*crown);
+        const auto away = [&](const CrownRecord& shell) {
+          return glm::distance(glm::dvec3(f.position), glm::dvec3(shell.x, shell.y, shell.z));
+        };
+        return sphere_cap_reference(*std::min_element(shells.begin() + 1, shells.end(),
+                                                      [&](const auto& a, const auto& b) { return away(a) < away(b); }),
+                                    f);
+      });
 }
 
 double ellipsoid_cap_reference(const CrownRecord& crown, const BenchFragment& f) {
@@ -130,122 +167,137 @@ double ellipsoid_cap_reference(const CrownRecord& crown, const BenchFragment& f)
 using Share = double (*)(double, double, double, double, double, double, double);
 
 /// All spheres shade all fragments; `exactly`: none is approximated.
-KernelCase sphere_case(const std::string& method, Share share, double flops, bool exactly) {
+KernelCase sphere_case(const std::string& method, Share share, bool exactly) {
   const FarFieldError error = exactly ? FarFieldError{0, 0} : FarFieldError{};
-  return {method + (exactly ? "/each" : ""),
-          8,
-          2,
-          flops,
-          solid_angle_product + double(error.total),
-          [=](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<SolidAnglePass>(device, method, error)] {
-              pass->run(all.planes, all.owners, all.spheres, all.sphere_rows().size(), visibility);
-            };
-          },
-          [share](const BenchFragments& all, const BenchFragment& f) {
-            double v = 1;
-            for (const ShadingSphere& sphere : all.sphere_rows()) {
-              if (sphere.group == all.owner_rows()[f.owner].group) continue;
-              const glm::dvec3 d = glm::dvec3(sphere.x, sphere.y, sphere.z) - glm::dvec3(f.position), n(f.normal);
-              v *= 1 - double(sphere.opacity) * share(d.x, d.y, d.z, n.x, n.y, n.z, double(sphere.radius));
-            }
-            return v;
-          }};
+  return visibility_case(
+      method + (exactly ? "/each" : ""), solid_angle_product + double(error.total),
+      [=](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return [&, pass = std::make_shared<SolidAnglePass>(device, method, error)] {
+          pass->run(all.planes, all.owners, all.spheres, all.sphere_rows().size(), visibility);
+        };
+      },
+      [share](const BenchFragments& all, const BenchFragment& f) {
+        double v = 1;
+        for (const ShadingSphere& sphere : all.sphere_rows()) {
+          if (sphere.group == all.owner_rows()[f.owner].group) continue;
+          const glm::dvec3 d = glm::dvec3(sphere.x, sphere.y, sphere.z) - glm::dvec3(f.position), n(f.normal);
+          v *= 1 - double(sphere.opacity) * share(d.x, d.y, d.z, n.x, n.y, n.z, double(sphere.radius));
+        }
+        return v;
+      });
 }
 
 KernelCase ambient_case() {
   constexpr double constant = 0.6;
-  return {"ambient",
-          3,
-          1,
-          25,
-          float_error,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<AmbientPass>(device)] {
-              pass->run(all.planes, all.owners, constant, class_bit(SurfaceClass::leaf), all.cover, glm::dvec3(0),
-                        visibility);
-            };
-          },
-          [](const BenchFragments& all, const BenchFragment& f) {
-            if (class_of(all, f) == SurfaceClass::leaf) return constant;
-            const bool terrain = class_of(all, f) == SurfaceClass::terrain;
-            return terrain ? BenchFragments::cover_at(double(f.position.x), double(f.position.y)) : 1.0;
-          }};
+  return visibility_case(
+      "ambient", float_error,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return [&, pass = std::make_shared<AmbientPass>(device)] {
+          pass->run(all.planes, all.owners, constant, class_bit(SurfaceClass::leaf), all.cover, glm::dvec3(0),
+                    visibility);
+        };
+      },
+      [](const BenchFragments& all, const BenchFragment& f) {
+        if (class_of(all, f) == SurfaceClass::leaf) return constant;
+        const bool terrain = class_of(all, f) == SurfaceClass::terrain;
+        return terrain ? BenchFragments::cover_at(double(f.position.x), double(f.position.y)) : 1.0;
+      },
+      BenchFragments::Cover::ground);
 }
 
 KernelCase grass_height_case() {
-  return {"grass-height",
-          4,
-          2,
-          6,
-          float_error,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<GrassHeightPass>(device)] {
-              pass->run(all.planes, all.owners, visibility);
-            };
-          },
-          [](const BenchFragments& all, const BenchFragment& f) {
-            if (class_of(all, f) != SurfaceClass::blade) return 1.0;
-            return grass_height(double(f.height), double(f.blade_length));
-          }};
+  return visibility_case(
+      "grass-height", float_error,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return [&, pass = std::make_shared<GrassHeightPass>(device)] { pass->run(all.planes, all.owners, visibility); };
+      },
+      [](const BenchFragments& all, const BenchFragment& f) {
+        if (class_of(all, f) != SurfaceClass::blade) return 1.0;
+        return grass_height(double(f.height), double(f.blade_length));
+      },
+      BenchFragments::Cover::grass);
 }
 
 KernelCase open_dome_case() {
-  return {"open-dome",
-          1,
-          1,
-          4,
-          float_error,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<OpenDomePass>(device)] { pass->run(all.planes, visibility); };
-          },
-          [](const BenchFragments&, const BenchFragment& f) { return open_dome(double(f.normal.z)); }};
+  return visibility_case(
+      "open-dome", float_error,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return [&, pass = std::make_shared<OpenDomePass>(device)] { pass->run(all.planes, visibility); };
+      },
+      [](const BenchFragments&, const BenchFragment& f) { return open_dome(double(f.normal.z)); });
 }
 
 /// Three terms, all of them the plane normal_x, which combine limits to [0, 1].
 KernelCase combine_case() {
-  return {"combine",
-          5,
-          1,
-          12,
-          float_error,
-          [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
-            return [&, pass = std::make_shared<CombinePass>(device)] {
-              VisibilityTerms terms;
-              terms.tree = &all.planes.normal_x;
-              terms.crowns = &all.planes.normal_y;
-              terms.dome = &all.planes.normal_z;
-              pass->run(all.planes, all.owners, terms, visibility);
-            };
-          },
-          [](const BenchFragments&, const BenchFragment& f) {
-            const glm::vec3 v = glm::clamp(f.normal, 0.0f, 1.0f);
-            return double(v.x) * double(v.y) * double(v.z);
-          }};
+  return visibility_case(
+      "combine", float_error,
+      [](Device& device, BenchFragments& all, Buffer<float>& visibility) {
+        return [&, pass = std::make_shared<CombinePass>(device)] {
+          VisibilityTerms terms;
+          terms.tree = &all.planes.normal_x;
+          terms.crowns = &all.planes.normal_y;
+          terms.dome = &all.planes.normal_z;
+          pass->run(all.planes, all.owners, terms, visibility);
+        };
+      },
+      [](const BenchFragments&, const BenchFragment& f) {
+        const glm::vec3 v = glm::clamp(f.normal, 0.0f, 1.0f);
+        return double(v.x) * double(v.y) * double(v.z);
+      });
 }
 
 }  // namespace
 
+KernelCase visibility_case(
+    const std::string& kernel, double tolerance,
+    std::function<std::function<void()>(Device&, BenchFragments&, Buffer<float>& visibility)> build,
+    std::function<double(const BenchFragments&, const BenchFragment&)> reference, BenchFragments::Cover filled_by) {
+  return {kernel, tolerance, [=](Device& device, BenchFragments& given) {
+            std::shared_ptr<BenchFragments> own;
+            if (filled_by != BenchFragments::Cover::crowns)
+              own = std::make_shared<BenchFragments>(device, given.planes.fragments, filled_by);
+            BenchFragments& all = own ? *own : given;
+            const auto visibility = std::make_shared<Buffer<float>>(device, all.planes.padded_fragments, "visibility");
+            ReadyKernel ready;
+            ready.run = [own, visibility, shade = build(device, all, *visibility)] { shade(); };
+            ready.error = [own, visibility, reference, &all] {
+              const std::vector<float> values = visibility->read();
+              double largest = 0;
+              for (std::size_t i = 0; i < all.planes.fragments; i += 101) {
+                const double error = std::abs(double(values[i]) - reference(all, all.at(i)));
+                largest = std::isfinite(error) ? std::max(largest, error) : HUGE_VAL;
+              }
+              return largest;
+            };
+            ready.items = static_cast<double>(all.planes.padded_fragments);
+            return ready;
+          }};
+}
+
 std::vector<KernelCase> kernel_cases() {
-  return {ambient_case(),
-          open_dome_case(),
-          grass_height_case(),
-          grass_transmittance_case(),
-          crown_case<ReevesBlauPass>("reeves-blau", 5, 32, reeves_blau_reference),
-          crown_case<SphereCapPass>("sphere-cap", 8, 55, sphere_cap_reference),
-          crown_case<EllipsoidCapPass>("ellipsoid-cap", 8, 105, ellipsoid_cap_reference),
-          crown_transmittance_case(false),
-          crown_transmittance_case(true),
-          crown_field_case(),
-          crown_baked_case(),
-          sphere_case("solid-angle", solid_angle, 0, false),
-          sphere_case("solid-angle-exact", solid_angle_exact, 0, false),
-          sphere_case("solid-angle-cosine", solid_angle_cosine, 0, false),
-          sphere_case("solid-angle-cosine", solid_angle_cosine, 64 * 60, true),
-          grid_case("grid"),
-          grid_case("grid-cone"),
-          combine_case(),
-          environment_case()};
+  std::vector<KernelCase> cases = {ambient_case(),
+                                   open_dome_case(),
+                                   grass_height_case(),
+                                   grass_transmittance_case(),
+                                   crown_case<ReevesBlauPass>("reeves-blau", reeves_blau_reference),
+                                   crown_case<SphereCapPass>("sphere-cap", sphere_cap_reference),
+                                   crown_case<EllipsoidCapPass>("ellipsoid-cap", ellipsoid_cap_reference),
+                                   shells_cap_case(),
+                                   crown_transmittance_case(false),
+                                   crown_transmittance_case(true),
+                                   crown_field_case(),
+                                   crown_baked_case(),
+                                   sphere_case("solid-angle", solid_angle, false),
+                                   sphere_case("solid-angle-exact", solid_angle_exact, false),
+                                   sphere_case("solid-angle-cosine", solid_angle_cosine, false),
+                                   sphere_case("solid-angle-cosine", solid_angle_cosine, true),
+                                   grid_case("grid"),
+                                   grid_case("grid-cone"),
+                                   combine_case(),
+                                   environment_case()};
+  for (auto* more : {&geometry_cases, &image_cases})
+    for (KernelCase& one : more()) cases.push_back(std::move(one));
+  return cases;
 }
 
 }  // namespace understory

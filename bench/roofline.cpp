@@ -2,9 +2,11 @@
 #include "bench/roofline.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <span>
 
-#include "bench/timing.hpp"
 #include "sim/error.hpp"
 
 namespace understory {
@@ -22,56 +24,124 @@ void verify(const char* what, const std::vector<float>& plane, Expected expected
   }
 }
 
+Buffer<float> filled(Device& device, std::size_t elements, float value, const char* what) {
+  const std::vector<float> values(elements, value);
+  return Buffer<float>(device, std::span<const float>(values), what);
+}
+
+unsigned lanes(const Device& device) { return static_cast<unsigned>(device.info().vector_width); }
+
+/// Work per second of what `run` launches, by the device's clock.
+double rate(Device& device, const std::function<void()>& run, double work, const StopRule& stop) {
+  return work / (time_in_turn(device, {run}, stop).front().device_ms.median * 1e-3);
+}
+
+void measure_memory(Device& device, std::size_t elements, const StopRule& stop, std::map<std::string, double>& roofs) {
+  const auto items = static_cast<unsigned>(elements / lanes(device));
+  const std::size_t local = group_fragments / lanes(device);
+  const Buffer<float> b = filled(device, elements, 8, "roofline plane"),
+                      c = filled(device, elements, 3, "roofline plane");
+  const Buffer<float> out(device, elements, "roofline result");
+  Kernel copy(device, "roofline", "copy_plane", "copy"), triad(device, "roofline", "triad", "triad");
+  const double bytes = 4.0 * static_cast<double>(elements);
+  roofs["copy_gb_per_s"] = 1e-9 * rate(
+                                      device, [&] { copy.launch(items, 4 * local, b, out, items); }, 2 * bytes, stop);
+  verify("copy_plane", out.read(), [](std::size_t) { return 8.0f; });
+  roofs["triad_gb_per_s"] =
+      1e-9 * rate(
+                 device, [&] { triad.launch(items, 4 * local, b, c, 2.0f, out, items); }, 3 * bytes, stop);
+  verify("triad", out.read(), [](std::size_t) { return 14.0f; });
+}
+
+void measure_arithmetic(Device& device, const StopRule& stop, std::map<std::string, double>& roofs) {
+  constexpr unsigned steps = 1024, items = 4096;
+  Kernel multiply_add(device, "roofline", "multiply_add", "multiply_add");
+  const Buffer<float> sums(device, items, "multiply_add result");
+  roofs["multiply_add_gflop_per_s"] =
+      1e-9 * rate(
+                 device, [&] { multiply_add.launch(items, 64, sums, steps, items); }, 128.0 * steps * items, stop);
+  verify("multiply_add", sums.read(), [](std::size_t) { return 2.0f; });
+
+  Kernel exponentials(device, "roofline", "exponentials", "exponentials");
+  const Buffer<float> fixed_points(device, std::size_t{items} * lanes(device), "exponentials result");
+  roofs["exp_g_per_s"] = 1e-9 * rate(
+                                    device, [&] { exponentials.launch(items, 64, fixed_points, steps / 4, items); },
+                                    2.0 * (steps / 4) * items * lanes(device), stop);
+  verify("exponentials", fixed_points.read(), [](std::size_t) { return 0.56714329f; });
+}
+
+void measure_gathers(Device& device, const StopRule& stop, std::map<std::string, double>& roofs) {
+  constexpr unsigned steps = 64, items = 4096;
+  Kernel gather(device, "roofline", "gather", "gather");
+  const Buffer<float> sums(device, std::size_t{items} * lanes(device), "gather result");
+  const std::size_t largest = std::min<std::size_t>(64u << 20, std::bit_floor(device.info().max_allocation_mib << 17));
+  for (const auto& [name, elements] :
+       {std::pair{"gather_g_per_s", std::size_t{1} << 14}, std::pair{"gather_far_g_per_s", largest}}) {
+    const Buffer<float> table = filled(device, elements, 1, "gather table");
+    const auto mask = static_cast<unsigned>(elements - 1);
+    roofs[name] = 1e-9 * rate(
+                             device, [&] { gather.launch(items, 64, table, mask, sums, steps, items); },
+                             double{steps} * items * lanes(device), stop);
+    verify("gather", sums.read(), [](std::size_t) { return float{steps}; });
+  }
+}
+
+void measure_atomics(Device& device, const StopRule& stop, std::map<std::string, double>& roofs) {
+  constexpr unsigned steps = 64, items = 1 << 14, cells = 1 << 19;
+  Kernel atomics(device, "roofline", "atomic_minima", "atomic_minima");
+  const std::vector<std::uint32_t> highest(2 * cells, 0xffffffffu);
+  const Buffer<std::uint32_t> table(device, std::span<const std::uint32_t>(highest), "atomic table");
+  roofs["atomic_g_per_s"] = 1e-9 * rate(
+                                       device, [&] { atomics.launch(items, 64, table, cells - 1, steps, items); },
+                                       double{steps} * items, stop);
+  const std::vector<std::uint32_t> after = table.read();
+  if (std::count(after.begin(), after.end(), 0xffffffffu) > cells + cells / 2)
+    throw Error(ErrorKind::unexpected, "atomic_minima left most of its table as it was");
+}
+
 }  // namespace
 
-Roofline::Roofline(Device& device, std::size_t fragments)
+std::map<std::string, double> measure_roofs(Device& device, std::size_t elements, const StopRule& stop) {
+  std::map<std::string, double> roofs;
+  measure_memory(device, elements, stop, roofs);
+  measure_arithmetic(device, stop, roofs);
+  measure_gathers(device, stop, roofs);
+  measure_atomics(device, stop, roofs);
+  return roofs;
+}
+
+PlaneStream::PlaneStream(Device& device, std::size_t elements)
     : device_(&device),
-      fragments_(fragments),
-      items_(static_cast<unsigned>(fragments / static_cast<std::size_t>(device.info().vector_width))),
-      local_size_(group_fragments / static_cast<std::size_t>(device.info().vector_width)),
-      out_(device, fragments, "roofline result") {
-  if (fragments % group_fragments != 0)
-    throw Error(ErrorKind::unexpected, "roofline: " + std::to_string(fragments) + " fragments are no multiple of " +
+      elements_(elements),
+      items_(static_cast<unsigned>(elements / lanes(device))),
+      local_size_(4 * group_fragments / lanes(device)) {
+  if (elements % group_fragments != 0)
+    throw Error(ErrorKind::unexpected, "roofline: " + std::to_string(elements) + " elements are no multiple of " +
                                            std::to_string(group_fragments));
-  std::vector<float> values(fragments);
-  for (int plane = 0; plane < most_planes; ++plane) {
-    std::fill(values.begin(), values.end(), static_cast<float>(1 << plane));
-    planes_.emplace_back(device, std::span<const float>(values), "roofline plane");
-  }
 }
 
-void Roofline::read_planes(int planes) {
-  const auto& p = planes_;
-  auto found = readers_.find(planes);
-  const bool is_new = found == readers_.end();
-  if (is_new) {
-    const std::string count = std::to_string(planes);
-    found = readers_.emplace(planes, Kernel(*device_, "roofline", "read_planes", "read_" + count, "-DPLANES=" + count))
-                .first;
-  }
-  found->second.launch(items_, local_size_, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11],
-                       out_, items_);
+void PlaneStream::run(int read, int written) {
   // The planes hold 1, 2, 4, ...
-  if (is_new) verify("read_planes", out_.read(), [=](std::size_t) { return static_cast<float>((1 << planes) - 1); });
-}
-
-double Roofline::copy_bytes_per_s(int repetitions) {
-  Kernel copy(*device_, "roofline", "copy_plane", "copy");
-  const auto run = [&] { copy.launch(items_, local_size_, planes_[3], out_, items_); };
-  const MeasuredTime time = time_in_turn(*device_, {run}, repetitions).front();
-  verify("copy_plane", out_.read(), [](std::size_t) { return 8.0f; });
-  return 8.0 * static_cast<double>(fragments_) / (time.device_ms.median * 1e-3);
-}
-
-double Roofline::multiply_adds_flop_per_s(int repetitions) {
-  constexpr unsigned steps = 2048;
-  const std::size_t items = std::min<std::size_t>(fragments_, 4096);
-  Kernel kernel(*device_, "roofline", "multiply_add", "multiply_add");
-  Buffer<float> result(*device_, items, "multiply_add result");
-  const auto run = [&] { kernel.launch(items, 64, result, steps, static_cast<unsigned>(items)); };
-  const MeasuredTime time = time_in_turn(*device_, {run}, repetitions).front();
-  verify("multiply_add", result.read(), [](std::size_t) { return 2.0f; });
-  return 128.0 * steps * static_cast<double>(items) / (time.device_ms.median * 1e-3);
+  while (in_.size() < static_cast<std::size_t>(read))
+    in_.push_back(filled(*device_, elements_, static_cast<float>(1 << in_.size()), "roofline plane"));
+  while (out_.size() < static_cast<std::size_t>(written)) out_.emplace_back(*device_, elements_, "roofline result");
+  auto found = kernels_.find({read, written});
+  const bool is_new = found == kernels_.end();
+  if (is_new) {
+    const std::string options = "-DREAD=" + std::to_string(read) + " -DWRITTEN=" + std::to_string(written);
+    found =
+        kernels_
+            .emplace(std::pair(read, written), Kernel(*device_, "roofline", "stream_planes", "stream_planes", options))
+            .first;
+  }
+  // Planes that are not touched take the place of missing ones.
+  const auto p = [&](std::size_t i) -> const Buffer<float>& { return in_[std::min(i, in_.size() - 1)]; };
+  const auto q = [&](std::size_t i) -> const Buffer<float>& { return out_[std::min(i, out_.size() - 1)]; };
+  found->second.launch(items_, local_size_, p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), p(8), p(9), p(10), p(11),
+                       q(0), q(1), q(2), q(3), q(4), q(5), q(6), q(7), q(8), q(9), q(10), q(11), items_);
+  if (is_new)
+    verify("stream_planes", q(static_cast<std::size_t>(written) - 1).read(),
+           [=](std::size_t) { return static_cast<float>((1 << read) - 1); });
 }
 
 }  // namespace understory

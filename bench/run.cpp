@@ -1,10 +1,9 @@
-// All benchmarks in one run, and what changed between two.
-#include <algorithm>
-
+// All benchmarks in one run.
 #include "bench/frame.hpp"
 #include "bench/grid_features.hpp"
 #include "bench/grids.hpp"
 #include "bench/kernels.hpp"
+#include "bench/peers.hpp"
 #include "bench/report.hpp"
 #include "sim/error.hpp"
 
@@ -15,6 +14,7 @@ BenchReport run_bench(const BenchOptions& options) {
   BenchReport report;
   report.device = device.info();
   bench_kernels(device, options, report);
+  bench_peers(device, options, report);
   bench_frames(device, options, report);
   bench_grids(device, options, report);
   bench_grid_features(device, options, report);
@@ -23,18 +23,6 @@ BenchReport run_bench(const BenchOptions& options) {
                                       ": no benchmark has this in its name; names are kernel/METHOD and, of the "
                                       "scenes given, frame/SCENE, as `understory bench` lists them");
   return report;
-}
-
-std::vector<BenchChange> compare_results(const std::vector<BenchResult>& then, const std::vector<BenchResult>& now) {
-  std::vector<BenchChange> changes;
-  for (const BenchResult& result : now) {
-    const auto old =
-        std::find_if(then.begin(), then.end(), [&](const BenchResult& r) { return r.name == result.name; });
-    if (old == then.end() || !old->verified || !result.verified) continue;
-    const bool apart = result.low_ms > old->high_ms || result.high_ms < old->low_ms;
-    changes.push_back({result.name, old->median_ms, result.median_ms, result.median_ms / old->median_ms, apart});
-  }
-  return changes;
 }
 
 }  // namespace understory

@@ -4,153 +4,157 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/accuracy.hpp"
-#include "bench/grid_accuracy.hpp"
 #include "bench/report.hpp"
+#include "host/app/bench_builds.hpp"
+#include "host/app/bench_errors.hpp"
 #include "host/app/bench_json.hpp"
+#include "host/app/bench_print.hpp"
+#include "host/app/bench_tune.hpp"
 #include "host/app/commands.hpp"
 #include "host/app/options.hpp"
 #include "sim/error.hpp"
-#include "sim/files/atomic_file.hpp"
 
 namespace understory {
 namespace {
 
 struct BenchCommand {
   BenchOptions bench;
-  DeviceOptions device;
-  bool json = false;
-  std::string compare;   // file of an earlier report; empty: none
-  std::string grids;     // Markdown file of the errors of moving bodies; empty: none
-  std::string accuracy;  // Markdown file to write; empty: times are measured, not errors
+  std::vector<std::string> devices;  // as --device; none: the one that every command takes
+  int threads = 0;
+  bool json = false, csv = false;
+  bool builds = false;       // only build, and tell how long it took
+  bool tune = false;         // measure and save how passes are launched best
+  bool skip_builds = false;  // leave out cold and warm builds
+  std::string compare;       // file of an earlier report; empty: none
+  std::string grids;         // Markdown file of the errors of moving bodies; empty: none
+  std::string accuracy;      // Markdown file to write; empty: times are measured, not errors
   AccuracyOptions accuracy_options;
 };
 
-/// "12.3 M", for rates.
-std::string rate_text(double per_second) {
-  if (per_second >= 1e9) return fmt::format("{:.2f} G", per_second * 1e-9);
-  if (per_second >= 1e6) return fmt::format("{:.1f} M", per_second * 1e-6);
-  return fmt::format("{:.1f}  ", per_second);
+/// Selectors of the devices that were asked for.
+std::vector<std::string> chosen_devices(const BenchCommand& command) {
+  if (command.devices.empty()) return {""};
+  if (command.devices != std::vector<std::string>{"all"}) return command.devices;
+  std::vector<std::string> all;
+  for (const DeviceInfo& device : list_devices()) all.push_back(std::to_string(device.index));
+  return all.empty() ? std::vector<std::string>{""} : all;
 }
 
-/// A column that may be unknown.
-std::string known(double value, const char* unit, int digits) {
-  return value > 0 ? fmt::format("{:.{}f}{}", value, digits, unit) : "";
+bool has_kernels(const BenchReport& report) {
+  return std::any_of(report.results.begin(), report.results.end(),
+                     [](const BenchResult& result) { return result.name.starts_with("kernel/"); });
 }
 
-void print_result(const BenchResult& result) {
-  if (!result.verified) {
-    fmt::print("{:38} WRONG: deviates by {:.3g}\n", result.name, result.max_error);
-    return;
+std::vector<BenchReport> measure(BenchCommand& command) {
+  command.bench.progress = [](const std::string& name) { spdlog::info("{}", name); };
+  std::vector<BenchReport> reports;
+  for (const std::string& device : chosen_devices(command)) {
+    command.bench.device = device;
+    reports.push_back(run_bench(command.bench));
+    if (!command.skip_builds && has_kernels(reports.back())) add_build_times(command.bench, reports.back());
   }
-  fmt::print("{:38}{:9.3f}{:9.3f}{:9.3f}{:>10}{:>11}/s{:>8}{:>7}{:>7} {}\n", result.name, result.median_ms,
-             result.low_ms, result.high_ms, known(result.cold_ms, "", 1), rate_text(result.items_per_s),
-             known(result.bytes_per_s * 1e-9, "", 1), known(result.plane_share, "", 2), known(result.roof_share, "", 2),
-             result.bound_by);
-}
-
-void print_report(const BenchReport& report) {
-  fmt::print("{} ({}), {} compute units\n", report.device.name, report.device.platform, report.device.compute_units);
-  for (const auto& [roof, value] : report.roofs) fmt::print("  {:28}{:9.1f}\n", roof, value);
-  fmt::print("{:38}{:>9}{:>9}{:>9}{:>10}{:>13}{:>8}{:>7}{:>7} {}\n", "", "median ms", "low", "high", "cold ms", "items",
-             "GB/s", "planes", "roof", "bound by");
-  for (const BenchResult& result : report.results) print_result(result);
-}
-
-void print_changes(const std::vector<BenchChange>& changes) {
-  fmt::print("\n{:38}{:>9}{:>9}{:>8}\n", "", "then ms", "now ms", "ratio");
-  for (const BenchChange& change : changes) {
-    const char* verdict = !change.changed ? "" : change.ratio > 1 ? "slower" : "faster";
-    fmt::print("{:38}{:9.3f}{:9.3f}{:8.2f} {}\n", change.name, change.old_ms, change.new_ms, change.ratio, verdict);
-  }
+  return reports;
 }
 
 int bench(BenchCommand& command) {
-  use_threads(command.device);
-  command.bench.device = command.device.device;
-  command.bench.progress = [](const std::string& name) { spdlog::info("{}", name); };
   std::vector<BenchResult> then;
   if (!command.compare.empty()) then = read_bench_results(command.compare);
-  const BenchReport report = run_bench(command.bench);
-  nlohmann::ordered_json json = bench_json(report);
-  const std::vector<BenchChange> changes = compare_results(then, report.results);
-  if (!command.compare.empty()) {
-    json["changes"] = nlohmann::ordered_json::array();
-    for (const BenchChange& change : changes)
-      json["changes"].push_back({{"name", change.name},
-                                 {"old_ms", change.old_ms},
-                                 {"new_ms", change.new_ms},
-                                 {"ratio", change.ratio},
-                                 {"changed", change.changed}});
-  }
+  const std::vector<BenchReport> reports = measure(command);
+  const std::vector<BenchChange> changes = compare_results(then, reports.front().results);
   if (command.json) {
+    nlohmann::ordered_json json = bench_json(reports);
+    if (!command.compare.empty()) json["changes"] = changes_json(changes);
     fmt::print("{}\n", json.dump(2));
+  } else if (command.csv) {
+    fmt::print("{}", bench_csv(reports));
   } else {
-    print_report(report);
-    if (!command.compare.empty()) print_changes(changes);
+    for (const BenchReport& report : reports) fmt::print("{}\n", bench_text(report, command.bench.precision));
+    if (reports.size() > 1) fmt::print("{}", side_by_side_text(reports));
+    if (!command.compare.empty()) fmt::print("{}", changes_text(changes));
   }
-  const auto wrong = std::count_if(report.results.begin(), report.results.end(),
-                                   [](const BenchResult& result) { return !result.verified; });
-  if (wrong > 0) spdlog::error("{} of {} results are wrong and were not timed", wrong, report.results.size());
+  std::size_t wrong = 0, all = 0;
+  for (const BenchReport& report : reports)
+    for (const BenchResult& result : report.results) {
+      ++all;
+      if (!result.verified) ++wrong;
+    }
+  if (wrong > 0) spdlog::error("{} of {} results are wrong and were not timed", wrong, all);
   return wrong > 0 ? 1 : 0;
 }
 
-void print_accuracy(const AccuracyReport& report) {
-  fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}\n", "scene", "setting", "surface", "method", "pixels",
-             "RMSE", "bias", "log", "noise", "constant");
-  for (const AccuracyRow& row : report.rows)
-    fmt::print("{:28}{:8}{:8}{:36}{:>8}{:>9.4f}{:>9.4f}{:>9.3f}{:>9.4f}{:>9.4f}\n", row.scene, row.setting, row.surface,
-               row.method, row.errors.pixels, row.errors.rmse, row.errors.bias, row.errors.log_mae,
-               row.errors.truth_noise, row.errors.best_constant);
-  for (const TruthRow& row : report.truth) {
-    fmt::print("{:28}{:8}truth: {:.2f} million rays/s, intervals hold {:.3f} of {}; by tenth", row.scene, row.setting,
-               row.rays_per_s * 1e-6, row.inside, row.fragments);
-    for (int tenth = 0; tenth < 10; ++tenth) fmt::print(" {:.3f}", row.tenth_inside[tenth]);
-    fmt::print("\n");
+int run(BenchCommand& command) {
+  DeviceOptions device;
+  device.threads = command.threads;
+  use_threads(device);
+  const std::string first = chosen_devices(command).front();
+  if (!command.grids.empty()) return bench_grid_errors(command.grids, first, command.bench.scenes);
+  if (!command.accuracy.empty()) {
+    command.accuracy_options.device = first;
+    command.accuracy_options.filter = command.bench.filter;
+    return bench_accuracy(command.accuracy, command.accuracy_options, command.json);
   }
-  for (const CanopyTruth& canopy : report.canopies)
-    fmt::print("canopy LAI {:<3} {:.5f} +- {:.5f}, closed form {:.5f}\n", canopy.leaf_area_index, canopy.traced,
-               canopy.standard_error, canopy.closed_form);
+  if (command.builds || command.tune) command.bench.device = first;
+  if (command.tune) return bench_tune(command.bench);
+  if (command.builds) return print_builds(command.bench);
+  return bench(command);
 }
 
-/// Errors of the methods of moving bodies instead of times.
-int bench_grid_errors(const BenchCommand& command) {
-  use_threads(command.device);
-  GridAccuracyOptions options;
-  options.device = command.device.device;
-  options.scenes = command.bench.scenes;
-  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
-  if (options.scenes.empty()) throw Error(ErrorKind::usage, "--grids needs scenes with occluders");
-  const std::string table = grid_accuracy_markdown(measure_grid_accuracy(options));
-  if (command.grids == "-")
-    fmt::print("{}", table);
-  else
-    write_file_atomically(command.grids, table);
-  return 0;
+void add_error_options(CLI::App& app, BenchCommand& command) {
+  CLI::Option* accuracy = app.add_option("--accuracy", command.accuracy,
+                                         "Measure errors against traced truth instead of times, into this Markdown "
+                                         "file (-: only print); meshes from UNDERSTORY_DATA");
+  app.add_option("--pictures", command.accuracy_options.pictures, "Folder for pictures truth | method | difference")
+      ->needs(accuracy);
+  app.add_option("--rays", command.accuracy_options.rays, "Rays per fragment of the truth")
+      ->check(CLI::Range(16, 1 << 24))
+      ->needs(accuracy)
+      ->capture_default_str();
+  app.add_option("--per-side", command.accuracy_options.fragments, "Fragments judged per side and surface")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
+      ->needs(accuracy)
+      ->capture_default_str();
+  app.add_option("--grids", command.grids,
+                 "Measure how far moving bodies of the SCENEs are from traced truth, by every method and rule of "
+                 "combining, into this Markdown file (-: only print)");
 }
 
-/// Errors instead of times.
-int bench_accuracy(BenchCommand& command) {
-  use_threads(command.device);
-  AccuracyOptions& options = command.accuracy_options;
-  options.device = command.device.device;
-  options.filter = command.bench.filter;
-  options.progress = [](const std::string& name) { spdlog::info("{}", name); };
-  const char* data = std::getenv("UNDERSTORY_DATA");
-  if (!data || !*data) throw Error(ErrorKind::usage, "--accuracy needs the data folder: set UNDERSTORY_DATA to it");
-  options.data = data;
-  const AccuracyReport report = measure_accuracy(options);
-  if (command.accuracy != "-") write_file_atomically(command.accuracy, accuracy_markdown(report));
-  if (command.json)
-    fmt::print("{}\n", accuracy_json(report).dump(2));
-  else
-    print_accuracy(report);
-  for (const std::string& name : report.unknown) spdlog::warn("there is no method '{}' in this build", name);
-  return 0;
+void add_options(CLI::App& app, BenchCommand& command) {
+  BenchOptions& options = command.bench;
+  app.add_option("SCENE", options.scenes, "Scenes whose frames are timed; without one, kernels only")
+      ->check(CLI::ExistingFile);
+  app.add_option("--filter", options.filter,
+                 "Only results whose name contains this (kernel/sphere-cap, frame/; of errors, birch/dome/)");
+  app.add_option("--fragments", options.fragments, "Sizes of the kernel benchmarks")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28))
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--precision", options.precision, "Half an interval over its median at which repeating a kernel ends")
+      ->check(CLI::Range(1e-4, 1.0))
+      ->capture_default_str();
+  app.add_option("--repetitions", options.repetitions, "Timed runs of each kernel, instead of a precision")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--frames", options.frames, "Timed frames of each scene, after a cold one")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  CLI::Option* json = app.add_flag("--json", command.json, "Print one JSON object");
+  app.add_flag("--csv", command.csv, "Print comma-separated values")->excludes(json);
+  app.add_option("--compare", command.compare, "Report of an earlier --json to set beside this one");
+  app.add_flag("--builds", command.builds, "Only build and run each kernel once, and tell how long it took");
+  app.add_flag(
+      "--tune", command.tune,
+      "Measure how each pass is launched best on this device (work-group and fragments per work-item) and save "
+      "it for all commands; results stay the same");
+  app.add_flag("--skip-builds", command.skip_builds, "Leave out how long kernels take to build, cold and warm");
+  add_error_options(app, command);
+  app.add_option("--device", command.devices,
+                 "Index, cpu, gpu, or part of a name; see `understory devices`. Several, or all: side by side")
+      ->envname("UNDERSTORY_DEVICE")
+      ->allow_extra_args(false);
+  app.add_option("--threads", command.threads, "Processor threads to use; results do not depend on it")
+      ->check(CLI::Range(1, 4096));
 }
 
 }  // namespace
@@ -158,49 +162,12 @@ int bench_accuracy(BenchCommand& command) {
 void add_bench(CLI::App& program, Command& chosen) {
   CLI::App* app = program.add_subcommand("bench", "Time kernels and frames beside what the device can do at most");
   const auto command = std::make_shared<BenchCommand>();
-  BenchOptions& options = command->bench;
-  app->add_option("SCENE", options.scenes, "Scenes whose frames are timed; without one, kernels only")
-      ->check(CLI::ExistingFile);
-  app->add_option("--filter", options.filter,
-                  "Only results whose name contains this (kernel/sphere-cap, frame/; of errors, birch/dome/)");
-  app->add_option("--fragments", options.fragments, "Fragments of the kernel benchmarks")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 28))
-      ->capture_default_str();
-  app->add_option("--repetitions", options.repetitions, "Timed runs of each kernel")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app->add_option("--frames", options.frames, "Timed frames of each scene, after a cold one")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app->add_flag("--json", command->json, "Print one JSON object");
-  app->add_option("--compare", command->compare, "Report of an earlier --json to set beside this one");
-  CLI::Option* accuracy = app->add_option("--accuracy", command->accuracy,
-                                          "Measure errors against traced truth instead of times, into this Markdown "
-                                          "file (-: only print); meshes from UNDERSTORY_DATA");
-  app->add_option("--pictures", command->accuracy_options.pictures, "Folder for pictures truth | method | difference")
-      ->needs(accuracy);
-  app->add_option("--rays", command->accuracy_options.rays, "Rays per fragment of the truth")
-      ->check(CLI::Range(16, 1 << 24))
-      ->needs(accuracy)
-      ->capture_default_str();
-  app->add_option("--per-side", command->accuracy_options.fragments, "Fragments judged per side and surface")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
-      ->needs(accuracy)
-      ->capture_default_str();
-  app->add_option("--grids", command->grids,
-                  "Measure how far moving bodies of the SCENEs are from traced truth, by every method and rule of "
-                  "combining, into this Markdown file (-: only print)");
-  add_device_options(*app, command->device);
+  add_options(*app, *command);
   app->footer(
-      "low and high enclose the median with 95 % confidence. cold: first run, compiling included. planes: speed over\n"
-      "that of a kernel that only reads as many planes and writes one; roof: over the nearest ceiling. Results are\n"
-      "verified first: a wrong one is named, not timed, and makes the exit code 1.");
-  app->callback([command, &chosen] {
-    chosen = [command] {
-      if (!command->grids.empty()) return bench_grid_errors(*command);
-      return command->accuracy.empty() ? bench(*command) : bench_accuracy(*command);
-    };
-  });
+      "median: by the device's clock, with the interval that holds it with 95 % confidence; ~: wider than asked for.\n"
+      "roof: share of the nearest of the ceilings that this run measured, memory beside a kernel that only moves as\n"
+      "many planes. Results are verified first: a wrong one is named, not timed, and makes the exit code 1.");
+  app->callback([command, &chosen] { chosen = [command] { return run(*command); }; });
 }
 
 }  // namespace understory

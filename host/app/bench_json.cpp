@@ -12,19 +12,33 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const BenchResult& result) {
-  return {{"name", result.name},
-          {"median_ms", result.median_ms},
-          {"low_ms", result.low_ms},
-          {"high_ms", result.high_ms},
-          {"wall_ms", result.wall_ms},
-          {"cold_ms", result.cold_ms},
-          {"items_per_s", result.items_per_s},
-          {"bytes_per_s", result.bytes_per_s},
-          {"plane_share", result.plane_share},
-          {"roof_share", result.roof_share},
-          {"bound_by", result.bound_by},
-          {"max_error", result.max_error},
-          {"verified", result.verified}};
+  Json json = {{"name", result.name},
+               {"item", result.item},
+               {"items", result.items},
+               {"median_ms", result.median_ms},
+               {"low_ms", result.low_ms},
+               {"high_ms", result.high_ms},
+               {"wall_ms", result.wall_ms},
+               {"wall_low_ms", result.wall_low_ms},
+               {"wall_high_ms", result.wall_high_ms},
+               {"runs", result.runs},
+               {"noisy", result.noisy},
+               {"cold_ms", result.cold_ms},
+               {"items_per_s", result.items_per_s},
+               {"bytes_per_s", result.bytes_per_s},
+               {"flop_per_s", result.flop_per_s},
+               {"operations_per_byte", result.operations_per_byte},
+               {"joules_per_item", result.joules_per_item},
+               {"shares", result.shares},
+               {"roof_share", result.roof_share},
+               {"bound_by", result.bound_by},
+               {"streams", result.streams},
+               {"rest", result.rest},
+               {"max_error", result.max_error},
+               {"verified", result.verified}};
+  for (const auto& [key, times] : {std::pair{"cold", result.cold}, std::pair{"warm", result.warm}})
+    if (times) json[key] = {{"build_ms", times->build_ms}, {"first_launch_ms", times->first_launch_ms}};
+  return json;
 }
 
 BenchResult from_json(const Json& json) {
@@ -39,10 +53,33 @@ BenchResult from_json(const Json& json) {
 
 }  // namespace
 
-Json bench_json(const BenchReport& report) {
-  Json results = Json::array();
-  for (const BenchResult& result : report.results) results.push_back(to_json(result));
-  return {{"device", device_json(report.device)}, {"roofs", report.roofs}, {"results", results}};
+Json bench_json(const std::vector<BenchReport>& reports) {
+  Json all = Json::array();
+  for (const BenchReport& report : reports) {
+    Json results = Json::array();
+    for (const BenchResult& result : report.results) results.push_back(to_json(result));
+    all.push_back({{"device", device_json(report.device)},
+                   {"energy", report.energy},
+                   {"roofs", report.roofs},
+                   {"results", results}});
+  }
+  Json first = all.front();
+  all.erase(all.begin());
+  if (!all.empty()) first["others"] = all;
+  return first;
+}
+
+Json changes_json(const std::vector<BenchChange>& changes) {
+  Json json = Json::array();
+  for (const BenchChange& change : changes)
+    json.push_back({{"name", change.name},
+                    {"old_ms", change.old_ms},
+                    {"new_ms", change.new_ms},
+                    {"ratio", change.ratio},
+                    {"low", change.low},
+                    {"high", change.high},
+                    {"verdict", verdict_name(change.verdict)}});
+  return json;
 }
 
 Json errors_json(const ErrorStatistics& errors) {

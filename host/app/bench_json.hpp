@@ -9,8 +9,12 @@
 
 namespace understory {
 
-/// Keys as in DESIGN.md, "What machines read", and wall_ms, cold_ms, plane_share, max_error beside them.
-nlohmann::ordered_json bench_json(const BenchReport& report);
+/// Keys as in DESIGN.md, "What machines read", and what else BenchResult holds beside them. Of several devices the
+/// first, the rest under `others`.
+nlohmann::ordered_json bench_json(const std::vector<BenchReport>& reports);
+
+/// [{name, old_ms, new_ms, ratio, low, high, verdict}]
+nlohmann::ordered_json changes_json(const std::vector<BenchChange>& changes);
 
 /// Keys as in `compare --json`.
 nlohmann::ordered_json errors_json(const ErrorStatistics& errors);

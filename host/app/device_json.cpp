@@ -15,6 +15,7 @@ nlohmann::ordered_json device_json(const DeviceInfo& device) {
           {"compute_units", device.compute_units},
           {"memory_mib", device.memory_mib},
           {"max_allocation_mib", device.max_allocation_mib},
+          {"max_group", device.max_group},
           {"vector_width", device.vector_width},
           {"atomic64", device.atomic64}};
 }

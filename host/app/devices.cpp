@@ -25,9 +25,10 @@ int list(bool json) {
                 "(OCL_ICD_VENDORS, if set, must lead to its .icd file)");
   if (json) return 0;
   for (const DeviceInfo& device : devices)
-    fmt::print("{}  {} ({}, {}, {})\n   {} compute units, {} MiB, largest buffer {} MiB, {} float lanes\n",
-               device.index, device.name, device.type, device.platform, device.version, device.compute_units,
-               device.memory_mib, device.max_allocation_mib, device.vector_width);
+    fmt::print(
+        "{}  {} ({}, {}, {})\n   {} compute units, {} MiB, largest buffer {} MiB, largest group {}, {} float lanes\n",
+        device.index, device.name, device.type, device.platform, device.version, device.compute_units,
+        device.memory_mib, device.max_allocation_mib, device.max_group, device.vector_width);
   return 0;
 }
 

@@ -41,6 +41,7 @@ DeviceInfo describe(const cl::Device& device, int index) {
   info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
   info.memory_mib = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>() >> 20;
   info.max_allocation_mib = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>() >> 20;
+  info.max_group = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
   info.vector_width = lanes(device, info.type);
   const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
   info.atomic64 = extensions.find("cl_khr_int64_base_atomics") != std::string::npos &&
@@ -116,6 +117,7 @@ Device::Device(const std::string& selector, const std::string& build_options) : 
   impl_->info = infos[chosen];
   impl_->device = devices[chosen];
   impl_->options_of_all = build_options;
+  impl_->tuning = read_tuning(tuning_file(impl_->info));
   try {
     impl_->context = cl::Context(impl_->device);
     impl_->queue = cl::CommandQueue(impl_->context, impl_->device, CL_QUEUE_PROFILING_ENABLE);
@@ -148,23 +150,38 @@ void Device::finish() {
 }
 
 void Device::Impl::collect_times() {
-  for (auto& [pass, event] : launches) {
-    event.wait();
-    pass_ms[pass] += milliseconds(event);
+  for (Launch& launch : launches) {
+    launch.event.wait();
+    const double ms = milliseconds(launch.event);
+    pass_ms[launch.pass] += ms;
+    kernel_ms[launch.kernel] += ms;
   }
   launches.clear();
 }
 
-std::map<std::string, double> Device::take_pass_times() {
+void Device::Impl::collect_all_times() {
   try {
-    impl_->collect_times();
+    collect_times();
   } catch (const cl::Error& error) {
-    throw Error(ErrorKind::unexpected, "a launch failed on device '" + info().name + "': " + status_text(error.err()));
+    throw Error(ErrorKind::unexpected, "a launch failed on device '" + info.name + "': " + status_text(error.err()));
   }
+}
+
+std::map<std::string, double> Device::take_pass_times() {
+  impl_->collect_all_times();
+  impl_->kernel_ms.clear();
   return std::exchange(impl_->pass_ms, {});
 }
 
 void Device::use_build_options(const std::string& build_options) { impl_->options_of_all = build_options; }
+
+std::map<std::string, double> Device::take_kernel_times() {
+  impl_->collect_all_times();
+  impl_->pass_ms.clear();
+  return std::exchange(impl_->kernel_ms, {});
+}
+
+std::map<std::string, double> Device::build_times() const { return impl_->build_ms; }
 
 std::vector<std::string> Device::programs_built() const {
   std::set<std::string> stems;
@@ -173,6 +190,8 @@ std::vector<std::string> Device::programs_built() const {
 }
 
 std::vector<std::string> Device::kernels_made() const { return {impl_->kernels.begin(), impl_->kernels.end()}; }
+const TuningTable& Device::tuning() const { return impl_->tuning; }
+void Device::tune(const std::string& pass, LaunchShape shape) { impl_->tuning[pass] = shape; }
 
 std::uint64_t Device::buffer_bytes() const { return impl_->buffer_bytes; }
 std::uint64_t Device::peak_buffer_bytes() const { return impl_->peak_buffer_bytes; }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/opencl/tuning.hpp"
+
 namespace understory {
 
 struct DeviceInfo {
@@ -15,8 +17,9 @@ struct DeviceInfo {
   std::string driver;
   int compute_units = 0;
   std::uint64_t memory_mib = 0, max_allocation_mib = 0;
-  int vector_width = 1;   // preferred float lanes: the W that kernels are built with (1 on a GPU)
-  bool atomic64 = false;  // cl_khr_int64_extended_atomics (and base)
+  std::uint64_t max_group = 0;  // work-items
+  int vector_width = 1;         // preferred float lanes: the W that kernels are built with (1 on a GPU)
+  bool atomic64 = false;        // cl_khr_int64_extended_atomics (and base)
 };
 
 /// Every device of every platform, in a stable order. Empty when there is none. Never throws for want of a device.
@@ -29,6 +32,8 @@ class Device {
   /// `build_options`: for every program of this device, before its own; for measuring what they change.
   /// Throws Error(no_device) with the list of what there is, or how to install PoCL when there is nothing.
   explicit Device(const std::string& selector = "", const std::string& build_options = "");
+  /// `build_options` for programs built from now on.
+  void use_build_options(const std::string& build_options);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -39,6 +44,10 @@ class Device {
   std::map<std::string, double> take_pass_times();
   /// Options of every program built from now on, before its own, in place of the constructor's `build_options`.
   void use_build_options(const std::string& build_options);
+  /// The same per kernel function. Either call forgets the times of both.
+  std::map<std::string, double> take_kernel_times();
+  /// Wall milliseconds that building each program took so far, by stem, summed over its options.
+  std::map<std::string, double> build_times() const;
   /// Names of the programs built so far on this device (stems of .cl files), sorted.
   std::vector<std::string> programs_built() const;
   /// "program/kernel" of every kernel made so far, sorted.
@@ -46,6 +55,10 @@ class Device {
   /// Bytes of live buffers, and the most there ever were.
   std::uint64_t buffer_bytes() const;
   std::uint64_t peak_buffer_bytes() const;
+
+  /// How passes made from now on are launched; at first what the device's tuning file says.
+  const TuningTable& tuning() const;
+  void tune(const std::string& pass, LaunchShape shape);
 
   struct Impl;  // for host/opencl only
   Impl& impl() { return *impl_; }

@@ -17,11 +17,18 @@ struct Device::Impl {
   cl::Context context;
   cl::CommandQueue queue;  // in order, profiling
   std::string options_of_all;
+  TuningTable tuning;
 
-  std::map<std::string, cl::Program> programs;              // key: stem and options
-  std::set<std::string> kernels;                            // program/kernel
-  std::vector<std::pair<std::string, cl::Event>> launches;  // pass name and event, not yet summed
-  std::map<std::string, double> pass_ms;                    // summed so far
+  std::map<std::string, cl::Program> programs;  // key: stem and options
+  std::set<std::string> kernels;                // program/kernel
+  struct Launch {
+    std::string pass, kernel;
+    cl::Event event;
+  };
+  std::vector<Launch> launches;             // not yet summed
+  std::map<std::string, double> pass_ms;    // summed so far
+  std::map<std::string, double> kernel_ms;  // the same by kernel function
+  std::map<std::string, double> build_ms;   // by stem
   std::uint64_t buffer_bytes = 0, peak_buffer_bytes = 0;
 
   /// Builds `kernels/<stem>.cl` or finds it built. `options` as given to Kernel.
@@ -30,6 +37,8 @@ struct Device::Impl {
   std::string build_options(const std::string& options) const;
   /// Waits for the launches noted so far and adds up their times.
   void collect_times();
+  /// The same; Error(unexpected) for a launch that failed.
+  void collect_all_times();
 };
 
 }  // namespace understory

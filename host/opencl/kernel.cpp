@@ -118,7 +118,7 @@ void Kernel::enqueue(std::size_t items, std::size_t local, unsigned arguments) {
     impl_->fail("launch of " + std::to_string(global) + " work-items in groups of " + std::to_string(local) +
                 " failed: " + status_text(status));
   }
-  on.launches.emplace_back(impl_->pass, std::move(event));
+  on.launches.push_back({impl_->pass, impl_->name, std::move(event)});
   if (on.launches.size() > most_pending) on.collect_times();
 }
 

@@ -44,12 +44,16 @@ cl::Program& Device::Impl::program(const std::string& stem, const std::string& o
   const std::string all_options = build_options(options), key = stem + " " + all_options;
   if (const auto found = programs.find(key); found != programs.end()) return found->second;
   const std::string source = expanded_source(stem);
+  const auto start = std::chrono::steady_clock::now();
   // Processes that share one cold cache disturb each other in PoCL 3.1: the build then fails without a word.
   constexpr int attempts = 5;
   for (int attempt = 1;; ++attempt) {
     cl::Program built(context, source);
     const cl_int status = clBuildProgram(built(), 1, &device(), all_options.c_str(), nullptr, nullptr);
-    if (status == CL_SUCCESS) return programs.emplace(key, std::move(built)).first->second;
+    if (status == CL_SUCCESS) {
+      build_ms[stem] += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+      return programs.emplace(key, std::move(built)).first->second;
+    }
     const std::string log = build_log(built, device);
     if (status == CL_BUILD_PROGRAM_FAILURE && log.empty() && attempt < attempts) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50 << attempt));

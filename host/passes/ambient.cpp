@@ -37,7 +37,7 @@ GroundCoverGrid GroundCoverTable::grid(glm::dvec3 eye) const {
 }
 
 AmbientPass::AmbientPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "ambient", "shade_ambient", "ambient", lanes_.option()) {}
+    : lanes_(device, lanes, "ambient"), kernel_(device, "ambient", "shade_ambient", "ambient", lanes_.option()) {}
 
 void AmbientPass::run(const FragmentPlanes& planes, const OwnerTables& owners, double constant,
                       std::uint32_t constant_classes, const GroundCoverTable& cover, glm::dvec3 eye,

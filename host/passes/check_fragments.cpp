@@ -3,7 +3,7 @@
 namespace understory {
 
 CheckFragmentsPass::CheckFragmentsPass(Device& device, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "check-fragments"),
       kernel_(device, "check_fragments", "check_fragments", "check-fragments", lanes_.option()) {}
 
 void CheckFragmentsPass::run(const FragmentPlanes& planes) {

@@ -3,7 +3,7 @@
 namespace understory {
 
 CombinePass::CombinePass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "combine", "combine", "combine", lanes_.option()) {}
+    : lanes_(device, lanes, "combine"), kernel_(device, "combine", "combine", "combine", lanes_.option()) {}
 
 void CombinePass::run(const FragmentPlanes& planes, const OwnerTables& owners, const VisibilityTerms& terms,
                       Buffer<float>& visibility) {

@@ -3,7 +3,8 @@
 namespace understory {
 
 CrownBakedPass::CrownBakedPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "crown_baked", "shade_crown_baked", "crown-baked", lanes_.option()) {}
+    : lanes_(device, lanes, "crown-baked"),
+      kernel_(device, "crown_baked", "shade_crown_baked", "crown-baked", lanes_.option()) {}
 
 void CrownBakedPass::run(const FragmentPlanes& planes, const Buffer<std::uint32_t>& texels, Buffer<float>& visibility) {
   require_planes("crown-baked", planes, visibility);

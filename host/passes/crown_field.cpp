@@ -3,7 +3,8 @@
 namespace understory {
 
 CrownFieldPass::CrownFieldPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "crown_field", "shade_crown_field", "crown-field", lanes_.option()) {}
+    : lanes_(device, lanes, "crown-field"),
+      kernel_(device, "crown_field", "shade_crown_field", "crown-field", lanes_.option()) {}
 
 void CrownFieldPass::run(const FragmentPlanes& planes, const CrownFieldTables& fields, Buffer<float>& visibility) {
   require_planes("crown-field", planes, visibility);

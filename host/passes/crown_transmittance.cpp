@@ -5,7 +5,7 @@
 namespace understory {
 
 CrownTransmittancePass::CrownTransmittancePass(Device& device, bool dome, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "crown-transmittance"),
       kernel_(device, "crown_transmittance", "shade_crown_transmittance", "crown-transmittance",
               lanes_.option() + (dome ? " -DSKY_DOME" : "")) {}
 

@@ -3,7 +3,7 @@
 namespace understory {
 
 EllipsoidCapPass::EllipsoidCapPass(Device& device, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "ellipsoid-cap"),
       kernel_(device, "ellipsoid_cap", "shade_ellipsoid_cap", "ellipsoid-cap", lanes_.option()) {}
 
 void EllipsoidCapPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,

@@ -22,7 +22,8 @@ EnvironmentTables::EnvironmentTables(Device& device, const PrefilteredEnvironmen
       sky(the_sky) {}
 
 EnvironmentPass::EnvironmentPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "environment", "light_from_environment", "environment", lanes_.option()) {}
+    : lanes_(device, lanes, "environment"),
+      kernel_(device, "environment", "light_from_environment", "environment", lanes_.option()) {}
 
 void EnvironmentPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<float>& visibility,
                           const ConePlanes* cones, const EnvironmentTables& tables, const Gloss& gloss,

@@ -3,7 +3,8 @@
 namespace understory {
 
 GrassHeightPass::GrassHeightPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "grass_height", "shade_grass_height", "grass-height", lanes_.option()) {}
+    : lanes_(device, lanes, "grass-height"),
+      kernel_(device, "grass_height", "shade_grass_height", "grass-height", lanes_.option()) {}
 
 void GrassHeightPass::run(const FragmentPlanes& planes, const OwnerTables& owners, Buffer<float>& visibility) {
   require_planes("grass-height", planes, visibility);

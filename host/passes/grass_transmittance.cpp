@@ -76,7 +76,7 @@ GrassLayerGrid GrassLayerTable::grid(glm::dvec3 eye) const {
 }
 
 GrassTransmittancePass::GrassTransmittancePass(Device& device, bool open_below, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "grass-transmittance"),
       open_below_(open_below),
       kernel_(device, "grass_transmittance", "shade_grass_transmittance", "grass-transmittance",
               lanes_.option() + (open_below ? " -DBELOW" : "")) {}

@@ -18,7 +18,7 @@ std::string self_option(const std::string& method) {
 
 GridPass::GridPass(Device& device, const std::string& method, int lanes)
     : method_(method),
-      lanes_(device, lanes),
+      lanes_(device, lanes, method),
       tiles_(device, method),
       kernel_(device, "grid", "shade_grid", method, lanes_.option() + self_option(method)) {}
 

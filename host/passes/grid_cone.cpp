@@ -21,7 +21,7 @@ std::string cone_options(const std::string& method, const std::string& combine) 
 
 GridConePass::GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes, bool cones)
     : method_(method),
-      lanes_(device, lanes),
+      lanes_(device, lanes, method),
       cones_(cones),
       tiles_(device, method),
       kernel_(device, "grid_cone", "shade_grid_cone", method,

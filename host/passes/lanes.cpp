@@ -9,7 +9,11 @@ bool is_width(int count) { return count == 1 || count == 4 || count == 8 || coun
 
 }  // namespace
 
-Lanes::Lanes(const Device& device, int count) : count_(count) {
+Lanes::Lanes(const Device& device, int count, const std::string& pass) : count_(count) {
+  if (const auto tuned = device.tuning().find(pass); count == 0 && tuned != device.tuning().end()) {
+    count = count_ = tuned->second.lanes;
+    group_ = tuned->second.group;
+  }
   if (count == 0) count_ = is_width(device.info().vector_width) ? device.info().vector_width : 1;
   if (!is_width(count_))
     throw Error(ErrorKind::unexpected,

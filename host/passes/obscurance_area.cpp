@@ -16,7 +16,7 @@ std::string area_options(const NearField& near_field, double spread) {
 
 ObscuranceAreaPass::ObscuranceAreaPass(Device& device, const NearField& near_field, const ObscuranceSampleSet& set,
                                        double spread, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "obscurance-area"),
       near_field_(near_field),
       rows_(device, std::span<const ObscuranceRow>(line_rows(set, near_field, true)), "obscurance areas"),
       kernel_(device, "obscurance_area", "shade_obscurance_area", "obscurance-area",

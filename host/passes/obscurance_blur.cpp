@@ -3,7 +3,7 @@
 namespace understory {
 
 ObscuranceBlurPass::ObscuranceBlurPass(Device& device, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "obscurance-blur"),
       kernel_(device, "obscurance_blur", "blur_obscurance", "obscurance-blur", lanes_.option()) {}
 
 void ObscuranceBlurPass::run(const FragmentPlanes& planes, const ObscuranceView& view, int radius, double reach,

@@ -27,7 +27,7 @@ void ObscuranceHalfPass::run(const FragmentPlanes& planes, const ObscuranceView&
 }
 
 ObscuranceUpsamplePass::ObscuranceUpsamplePass(Device& device, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "obscurance-upsample"),
       kernel_(device, "obscurance_upsample", "upsample_obscurance", "obscurance-upsample", lanes_.option()) {}
 
 void ObscuranceUpsamplePass::run(const FragmentPlanes& half, const Buffer<float>& half_visibility, double reach,

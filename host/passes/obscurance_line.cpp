@@ -4,7 +4,7 @@ namespace understory {
 
 ObscuranceLinePass::ObscuranceLinePass(Device& device, const NearField& near_field, const ObscuranceSampleSet& set,
                                        int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "obscurance-line"),
       near_field_(near_field),
       centre_share_(centre_share(set, near_field)),
       rows_(device, std::span<const ObscuranceRow>(line_rows(set, near_field, false)), "obscurance lines"),

@@ -4,7 +4,7 @@ namespace understory {
 
 ObscurancePointPass::ObscurancePointPass(Device& device, const NearField& near_field, const ObscuranceSampleSet& set,
                                          int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, "obscurance-point"),
       near_field_(near_field),
       rows_(device, std::span<const ObscuranceRow>(point_rows(set, near_field)), "obscurance points"),
       kernel_(device, "obscurance_point", "shade_obscurance_point", "obscurance-point",

@@ -3,7 +3,8 @@
 namespace understory {
 
 OpenDomePass::OpenDomePass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "open_dome", "shade_open_dome", "open-dome", lanes_.option()) {}
+    : lanes_(device, lanes, "open-dome"),
+      kernel_(device, "open_dome", "shade_open_dome", "open-dome", lanes_.option()) {}
 
 void OpenDomePass::run(const FragmentPlanes& planes, Buffer<float>& visibility) {
   require_planes("open-dome", planes, visibility);

@@ -3,7 +3,8 @@
 namespace understory {
 
 ReevesBlauPass::ReevesBlauPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "reeves_blau", "shade_reeves_blau", "reeves-blau", lanes_.option()) {}
+    : lanes_(device, lanes, "reeves-blau"),
+      kernel_(device, "reeves_blau", "shade_reeves_blau", "reeves-blau", lanes_.option()) {}
 
 void ReevesBlauPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,
                          Buffer<float>& visibility) {

@@ -5,7 +5,7 @@
 namespace understory {
 
 ShellsCapPass::ShellsCapPass(Device& device, bool levels, int lanes)
-    : lanes_(device, lanes),
+    : lanes_(device, lanes, levels ? "shells-cap-levels" : "shells-cap"),
       kernel_(device, "shells_cap", "shade_shells_cap", levels ? "shells-cap-levels" : "shells-cap",
               lanes_.option() + (levels ? " -DLEVELS" : "")) {}
 

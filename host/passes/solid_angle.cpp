@@ -24,7 +24,7 @@ SolidAnglePass::SolidAnglePass(Device& device, const std::string& method, FarFie
     : device_(&device),
       method_(method),
       error_(error),
-      lanes_(device, lanes),
+      lanes_(device, lanes, method),
       list_(device, "tile_spheres", "list_tile_spheres", method,
             Lanes(device, 16).option() + " " + share_option(method)),
       shade_(device, "solid_angle", "shade_by_spheres", method, lanes_.option() + " " + share_option(method)) {}

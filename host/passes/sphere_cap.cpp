@@ -3,7 +3,8 @@
 namespace understory {
 
 SphereCapPass::SphereCapPass(Device& device, int lanes)
-    : lanes_(device, lanes), kernel_(device, "sphere_cap", "shade_sphere_cap", "sphere-cap", lanes_.option()) {}
+    : lanes_(device, lanes, "sphere-cap"),
+      kernel_(device, "sphere_cap", "shade_sphere_cap", "sphere-cap", lanes_.option()) {}
 
 void SphereCapPass::run(const FragmentPlanes& planes, const OwnerTables& owners, const Buffer<CrownRecord>& crowns,
                         Buffer<float>& visibility) {

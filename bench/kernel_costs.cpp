@@ -1,0 +1,83 @@
+#include "bench/kernel_costs.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "sim/error.hpp"
+
+namespace understory {
+namespace {
+
+// kernel, item, bytes read, written, operations, exponentials, gathers, atomics, streams, what keeps it from its roof
+constexpr KernelCost costs[] = {
+    {"ambient", "fragment", 12, 4, 23, 0, 4, 0, false, "four gathers a fragment from the ground's grid"},
+    {"open-dome", "fragment", 4, 4, 2, 0, 0, 0, true, ""},
+    {"grass-height", "fragment", 12, 4, 1, 0, 0, 0, true, ""},
+    {"grass-transmittance", "fragment", 24, 4, 68, 0, 8, 0, false,
+     "each fragment gathers four heights of the ground and eight numbers at each of four nodes"},
+    {"reeves-blau", "fragment", 15.7, 4, 32.2, 0.98, 0, 0, true, ""},
+    {"sphere-cap", "fragment", 27.4, 4, 49.8, 0.98, 0, 0, true, ""},
+    {"ellipsoid-cap", "fragment", 27.4, 4, 107.4, 0.98, 0, 0, true, ""},
+    {"shells-cap", "fragment", 27.4, 4.4, 82, 0.98, 0, 0, false,
+     "five shells are tried one after another; each waits for the comparison before it"},
+    {"crown-transmittance", "fragment", 27.4, 4, 88.9, 0.98, 0, 0, false,
+     "two roots and a quartic one after another: latency of the chain, not throughput"},
+    {"crown-transmittance/dome", "fragment", 27.4, 4, 104, 0.98, 0, 0, false,
+     "four roots and two quartics one after another: latency of the chain, not throughput"},
+    {"crown-field", "fragment", 27.4, 4, 50.8, 0, 3, 0, false,
+     "three words a fragment from a table larger than the second-level cache, and the unpacking of their bytes"},
+    {"crown-baked", "fragment", 8, 4, 13, 0, 1, 0, false, "one word a fragment from a table of 12.8 MB: cache misses"},
+    {"solid-angle", "fragment", 48, 7, 1316, 1, 0, 0, false,
+     "short loops over lists whose length differs from tile to tile, a division and a root for each sphere"},
+    {"solid-angle-exact", "fragment", 48, 7, 1940, 1, 0, 0, false,
+     "short loops over lists whose length differs from tile to tile; divisions, roots and arc tangents for each "
+     "sphere"},
+    {"solid-angle-cosine", "fragment", 48, 7, 1808, 1, 0, 0, false,
+     "short loops over lists whose length differs from tile to tile; divisions and roots for each sphere"},
+    {"solid-angle-cosine/each", "fragment", 48, 7, 1808, 1, 0, 0, false,
+     "all 64 spheres for every fragment; divisions and roots, which take longer than multiplications"},
+    {"grid", "fragment", 40, 7.6, 1669, 0, 0, 0, false,
+     "as many grids as a tile lies in, one after another, with eight corners gathered from each that holds a fragment"},
+    {"grid-cone", "fragment", 52, 7.6, 2375, 0, 0, 0, false,
+     "as `grid`, then clipping of the cones, whose branches the tile takes together"},
+    {"combine", "fragment", 16, 4, 6, 0, 0, 0, true, ""},
+    {"environment", "fragment", 40, 12, 158, 0, 36, 0, false, "36 gathers a fragment from two tables"},
+    {"pose-mesh", "vertex", 16.5, 16, 123, 0, 0, 0, true, ""},
+    {"pose-grass", "blade", 44, 112, 464, 0, 8, 0, true, ""},
+    {"rasterise-mesh", "triangle", 44, 16, 138.4, 0, 0, 3.5, false,
+     "edges in whole numbers of 64 bits, pixel by pixel; their operations are not counted"},
+    {"rasterise-grass", "triangle", 36, 25.6, 140.5, 0, 0, 4.27, false,
+     "edges in whole numbers of 64 bits, pixel by pixel; their operations are not counted"},
+    {"resolve", "pixel", 13.5, 36, 106, 0, 9, 0, false,
+     "corners are gathered through two indirections, one fragment per work-item"},
+    {"check-fragments", "fragment", 28, 16, 17, 0, 0, 0, true, ""},
+    {"normals-from-depth", "pixel", 8, 12, 92.4, 0, 7, 0, false,
+     "one pixel per work-item with branches at its neighbours"},
+    {"obscurance-line", "pixel", 20, 4, 263, 0, 4, 0, false,
+     "one root and several divisions for each line after a gather"},
+    {"obscurance-point", "pixel", 20, 4, 942, 0, 12, 0, false,
+     "roots and divisions for each of twelve points after a gather"},
+    {"depth-moments", "pixel", 24, 16.5, 50.8, 0, 0, 0, false,
+     "32 taps for each texel of a coarser level, one texel per work-item"},
+    {"obscurance-area", "pixel", 20, 4, 876, 0, 96, 0, false,
+     "96 gathers a pixel: eight texels of three planes for each of four areas"},
+    {"obscurance-blur", "pixel", 48, 8, 464, 0, 0, 0, false,
+     "eight neighbours of five planes each way, all from caches, a root for each"},
+    {"obscurance-half", "pixel", 20, 20, 0, 0, 0, 0, false,
+     "reads every other element of every other row: half of each line is fetched in vain"},
+    {"obscurance-upsample", "pixel", 21, 4, 143, 0, 20, 0, false, "four neighbours of five planes are gathered"},
+};
+
+}  // namespace
+
+std::span<const KernelCost> kernel_costs() { return costs; }
+
+const KernelCost& cost_of(std::string_view kernel) {
+  const auto found =
+      std::find_if(std::begin(costs), std::end(costs), [&](const auto& c) { return c.kernel == kernel; });
+  if (found == std::end(costs))
+    throw Error(ErrorKind::unexpected, "bench/kernel_costs.cpp has no row for '" + std::string(kernel) + "'");
+  return *found;
+}
+
+}  // namespace understory
