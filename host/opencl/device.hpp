@@ -42,8 +42,6 @@ class Device {
   void finish();
   /// Waits for all launches; milliseconds of device time per pass name since the last call, summed over launches.
   std::map<std::string, double> take_pass_times();
-  /// Options of every program built from now on, before its own, in place of the constructor's `build_options`.
-  void use_build_options(const std::string& build_options);
   /// The same per kernel function. Either call forgets the times of both.
   std::map<std::string, double> take_kernel_times();
   /// Wall milliseconds that building each program took so far, by stem, summed over its options.
