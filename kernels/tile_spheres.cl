@@ -3,6 +3,7 @@
 // changes V by at most `each`, all of a tile together by at most `budget`. One work-item per tile; built with W = 16
 // (16 fragments, then 16 spheres, at a time) and -DSHARE as solid_angle.cl.
 #pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/tile_spheres.h"
 
 kernel void list_tile_spheres(global const float* position_x, global const float* position_y,
@@ -17,6 +18,14 @@ kernel void list_tile_spheres(global const float* position_x, global const float
   for (uint row = top; row < top + TILE_ROWS; ++row) {
     const uint begin = first_unit(row, row_length) + column * TILE_UNITS;
     const uint end = min(min(begin + TILE_UNITS, first_unit(row + 1, row_length)), units);
+    const uint below = first_unit(row + 1, row_length) + column * TILE_UNITS;
+    for (uint unit = below; unit < min(below + TILE_UNITS, units) && row + 1 < top + TILE_ROWS; ++unit) {
+      fetch_ahead(position_x + unit * UNIT);
+      fetch_ahead(position_y + unit * UNIT);
+      fetch_ahead(position_z + unit * UNIT);
+      fetch_ahead(owner + unit * UNIT);
+      fetch_ahead(validity + unit * UNIT);
+    }
     for (uint unit = begin; unit < end; ++unit) {
       const real x = LOAD(position_x, unit), y = LOAD(position_y, unit), z = LOAD(position_z, unit);
       const truth drawn = ((LOAD(validity, unit) & (bits)(VALIDITY_BACKGROUND)) == (bits)(0u)) & in_reach(x, y, z);
