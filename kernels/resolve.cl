@@ -83,9 +83,10 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
       continue;
     }
 
-    const uint chunk_index = triangle / CHUNK, lane = triangle % CHUNK;
-    global const TriangleChunk* chunk = chunks + chunk_index;
-    const int is_mesh = chunk_index < mesh_chunks;
+    global const TriangleChunk* chunk = chunks + triangle / CHUNK;
+#if defined(GRASS_HEIGHT) || defined(REST_POINT) || defined(FACE_TEXEL)
+    const int is_mesh = triangle / CHUNK < mesh_chunks;
+#endif
     const float4 a = first_corner[k], b = second_corner[k], c = third_corner[k];
     const float ax = a.x, ay = a.y, az = a.z;
     const float ux = b.x - ax, uy = b.y - ay, uz = b.z - az, vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
@@ -123,7 +124,7 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     validity[i] = 0;
 #ifdef GRASS_HEIGHT
     if (!is_mesh) {
-      const uint blade = chunk->first_index + lane;
+      const uint blade = chunk->first_index + triangle % CHUNK;
       height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
       total_height[i] = blade_length[blade];
     } else if (owner_height[chunk->owner] > 0) {
@@ -137,7 +138,7 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
 #endif
 #ifdef FACE_TEXEL
     if (is_mesh) {
-      const uint2 face = faces[chunk->first_index + lane];
+      const uint2 face = faces[chunk->first_index + triangle % CHUNK];
       const uint columns = FACE_COLUMNS(face), rows = FACE_ROWS(face);
       if (columns != 0) {
         const float x = place.x * (float)columns, y = place.y * (float)rows;

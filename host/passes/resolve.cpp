@@ -25,8 +25,8 @@ void ResolvePass::run(const VisibilityBuffer& visible, const TriangleTables& tri
   require_size("resolve", "fragments", planes.fragments, fragments);
   require_size("resolve", "visible", visible.words.size(), 2 * fragments);
   const auto padded = static_cast<std::uint32_t>(planes.padded_fragments);
-  // Small groups: what work-items hold of their triangles has to fit the first cache.
-  constexpr std::size_t local = 8;
+  // Small groups on a processor: what work-items hold of their triangles has to fit its first cache.
+  const std::size_t local = lanes_ > 1 ? 8 : 64;
   const auto launch = [&](const auto&... more) {
     kernel_.launch(padded / lanes_, local, visible.words, triangles.chunks, triangles.mesh_chunks, triangles.index_a,
                    triangles.index_b, triangles.index_c, posed.points, camera, padded, std::uint32_t{batch.first},
