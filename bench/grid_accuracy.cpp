@@ -109,7 +109,7 @@ void measure_scene(Device& device, const std::filesystem::path& file, const Grid
   const Scene scene = bodies_over_ground(file);
   const World world = build_world(scene);
   FrameRunner runner(device, world);
-  Samples ground, contact, bodies;
+  Samples ground, near, contact, bodies;
   const int frames = std::min(options.frames, scene.time.frames);
   std::vector<GridReceivers> receivers;
   for (std::size_t variant = 0; variant < std::size(variants); ++variant) {
@@ -130,16 +130,19 @@ void measure_scene(Device& device, const std::filesystem::path& file, const Grid
         const Tracer tracer(corners, indices);
         const glm::vec3 eye(scene.camera.position);
         add_truth(truth_at(tracer, frame, eye, receivers.back().ground, options.rays), ground);
+        add_truth(truth_at(tracer, frame, eye, receivers.back().near, options.rays), near);
         add_truth(truth_at(tracer, frame, eye, receivers.back().contact, options.rays), contact);
         add_truth(truth_at(tracer, frame, eye, receivers.back().bodies, options.rays), bodies);
       }
       const Plane& term = frame.terms.at(methods.occluders);
       const GridReceivers& here = receivers[static_cast<std::size_t>(f)];
       for (const std::size_t i : here.ground) ground.values[variant].push_back(term[i]);
+      for (const std::size_t i : here.near) near.values[variant].push_back(term[i]);
       for (const std::size_t i : here.contact) contact.values[variant].push_back(term[i]);
       for (const std::size_t i : here.bodies) bodies.values[variant].push_back(term[i]);
     }
     report.rows.push_back(row_of(scene.name, "ground", ground, variant));
+    report.rows.push_back(row_of(scene.name, "near", near, variant));
     report.rows.push_back(row_of(scene.name, "contact", contact, variant));
     report.rows.push_back(row_of(scene.name, "bodies", bodies, variant));
     report.rows.push_back(row_of(scene.name, "all", joined({&ground, &contact, &bodies}), variant));
@@ -202,6 +205,8 @@ std::string grid_accuracy_markdown(const GridAccuracyReport& report) {
       "Each entry is RMSE (bias, 99 % of\n|error| are not above). Truth noise: its root mean square standard error.\n",
       report.device.name, report.rays, report.frames);
   text += table_of(report, "ground", "Ground, at least one cell of the body's grid from the body");
+  text +=
+      table_of(report, "near", "Of this ground, where grids of epsilon 0.02 would reach: the shadows that one sees");
   text += table_of(report, "contact", "Ground within one cell of a body: contact");
   text += table_of(report, "bodies", "The bodies themselves");
   text += table_of(report, "all", "All of them");

@@ -22,8 +22,10 @@ struct GridAccuracyOptions {
 /// Errors of V_c of the occluders alone, `sky: sphere`, over fragments within some occluder's grid.
 struct GridAccuracyRow {
   std::string scene;
-  std::string receivers;  // ground: at least one cell of the grid from the body; contact: ground within; bodies; all
-  std::string method;     // as in scenes; with the rule: grid-cone merge
+  /// ground: at least one cell of the grid from every body; near: of it, where a grid of epsilon 0.02 would reach;
+  /// contact: ground within a cell; bodies; all: ground, contact and bodies.
+  std::string receivers;
+  std::string method;  // as in scenes; with the rule: grid-cone merge
   std::size_t fragments = 0;
   double mean_truth = 0, truth_noise = 0;  // mean V; root mean square standard error of the truth
   double rmse = 0, bias = 0, p99 = 0;      // of V; p99: 99 % of |error| are not above it

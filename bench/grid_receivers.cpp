@@ -15,7 +15,7 @@ namespace {
 /// One rigid part at the frame's time.
 struct PosedPart {
   Transform pose;
-  Box box;          // of its grid, in its own frame, m
+  Box box, near;    // of its grid, and of one of epsilon 0.02, in its own frame, m
   double cell = 0;  // m, the longest that meets the body
 };
 
@@ -45,15 +45,15 @@ std::vector<PosedPart> posed_parts(const World& world, double time) {
     }
     for (std::size_t part = 0; part < poses.size(); ++part) {
       const Box grid = grid_extent(boxes[part], choice.epsilon);
-      parts.push_back({poses[part], grid, longest_cell(boxes[part], grid, choice)});
+      parts.push_back({poses[part], grid, grid_extent(boxes[part], 0.02), longest_cell(boxes[part], grid, choice)});
     }
   }
   return parts;
 }
 
-bool inside(const PosedPart& part, glm::dvec3 p) {
+bool inside(const PosedPart& part, const Box& box, glm::dvec3 p) {
   const glm::dvec3 own = glm::conjugate(part.pose.rotation) * (p - part.pose.translation);
-  return glm::all(glm::greaterThan(own, part.box.low)) && glm::all(glm::lessThan(own, part.box.high));
+  return glm::all(glm::greaterThan(own, box.low)) && glm::all(glm::lessThan(own, box.high));
 }
 
 /// Distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", section 5.1.5).
@@ -111,13 +111,13 @@ GridReceivers grid_receivers(const World& world, const Frame& frame, const Posed
   for (std::size_t i = 0; i < frame.pixels(); ++i) {
     if (frame.owner[i] == 0) continue;
     const bool within =
-        std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return inside(part, position(i)); });
+        std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return inside(part, part.box, position(i)); });
     if (!within) continue;
     const SurfaceClass surface = frame.owners[frame.owner[i]].surface;
     if (surface == SurfaceClass::terrain) terrain.push_back(i);
     if (surface == SurfaceClass::occluder) found.bodies.push_back(i);
   }
-  terrain = thinned(terrain, 2 * most);
+  terrain = thinned(terrain, 8 * most);
   std::vector<std::uint8_t> touches(terrain.size(), 0);
   tbb::parallel_for(std::size_t{0}, terrain.size(), [&](std::size_t i) {
     const glm::dvec3 p = position(terrain[i]);
@@ -126,7 +126,11 @@ GridReceivers grid_receivers(const World& world, const Frame& frame, const Posed
                                glm::dvec3(corners[3 * t + 2])) < cell.at(owner[t]);
   });
   for (std::size_t i = 0; i < terrain.size(); ++i) (touches[i] ? found.contact : found.ground).push_back(terrain[i]);
+  for (const std::size_t i : found.ground)
+    if (std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return inside(part, part.near, position(i)); }))
+      found.near.push_back(i);
   found.ground = thinned(found.ground, most);
+  found.near = thinned(found.near, most);
   found.contact = thinned(found.contact, most);
   found.bodies = thinned(found.bodies, most);
   return found;

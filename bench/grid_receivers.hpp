@@ -11,6 +11,7 @@ namespace understory {
 /// Pixels of one frame that lie within a grid, by kind of receiver.
 struct GridReceivers {
   std::vector<std::size_t> ground;   // terrain, at least one cell of the body's grid from every body
+  std::vector<std::size_t> near;     // of these, where a grid of epsilon 0.02 would reach, however far this one does
   std::vector<std::size_t> contact;  // terrain within one cell
   std::vector<std::size_t> bodies;   // the occluders themselves
 };
