@@ -22,7 +22,8 @@ double along(const float (&axis)[4], const glm::dvec3& p) {
   return double(axis[0]) * p.x + double(axis[1]) * p.y + double(axis[2]) * p.z;
 }
 
-/// Blades at or before the middle of the ramp of `length` pixels, in three strips of fewer and fewer vertices.
+/// Pairs of vertices along a blade: bent by a radian, its middle lies an eighth of its length beside the chord, which
+/// few pairs show where that is a pixel or two.
 std::uint32_t strip_pairs(double length_in_pixels) { return length_in_pixels > 24 ? 3 : length_in_pixels > 3 ? 2 : 1; }
 
 BladeGroup measure_group(const GrassBlades& field, std::size_t first, std::size_t end, std::uint32_t first_blade) {
