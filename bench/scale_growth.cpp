@@ -18,7 +18,7 @@ constexpr int trees_a_side = 16;  // of the largest wood
 constexpr double spacing = 12;    // m
 constexpr int leaves = 48'000;    // about 125,000 triangles with the wood
 constexpr double million = 1e6, mib = 1024.0 * 1024.0;
-constexpr int timed_frames = 5;
+constexpr int timed_frames = 3;
 
 /// Trees stand on a grid; small woods are its trees of every k-th place, so that all sizes fill the view alike.
 Scene wood(int trees) {

@@ -92,7 +92,7 @@ void write_tables(const std::string& scene, const std::string& folder) {
       "# Frames at scale\n\nMade by `build/release/bench/scale_table {} {}` (target scale_table); times are of the "
       "machine that ran it.\n\n",
       scene, folder);
-  text += detail_table(scene, measure_detail(scene, 15));
+  text += detail_table(scene, measure_detail(scene, 11));
   const std::vector<GrowthPoint> triangles = measure_triangle_growth(32), pixels = measure_pixel_growth(16);
   text += "![time and memory over triangles and pixels](scale.svg)\n\n";
   text += growth_table("Triangles", "triangles", triangles) + instance_text(triangles);
