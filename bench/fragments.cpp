@@ -94,9 +94,9 @@ BenchFragments::BenchFragments(Device& device, std::size_t fragments, Cover fill
 }
 
 std::uint32_t BenchFragments::owner_of_tile(Random& random) const {
-  const auto any = 1 + static_cast<std::uint32_t>(random.below(owner_rows_.size() - 1));
+  const auto crown = 1 + static_cast<std::uint32_t>(random.below(crown_count));
   if (filled_by_ == Cover::grass) return crown_count + 1;
-  return filled_by_ == Cover::ground ? crown_count + 2 : any;
+  return filled_by_ == Cover::ground ? crown_count + 2 : crown;
 }
 
 BenchFragment BenchFragments::at(std::size_t index) const {

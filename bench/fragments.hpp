@@ -1,6 +1,6 @@
 // A made-up G-buffer for the kernel benchmarks: tiles of 16 x 16 fragments that belong together, as in pictures, on 64
-// crowns, blades and terrain. Each fragment is a function of its index, so that a reference needs no copy of the
-// planes.
+// crowns, or on blades or on ground alone. Each fragment is a function of its index, so that a reference needs no copy
+// of the planes.
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>
@@ -20,7 +20,7 @@ struct BenchFragment {
 
 class BenchFragments {
  public:
-  /// What fills the picture: crowns and a little of the rest, or one surface everywhere.
+  /// What fills the picture.
   enum class Cover { crowns, grass, ground };
 
   /// At least `fragments` of them, in whole rows of 2048; below 32768 in rows of 128.

@@ -276,7 +276,7 @@ void bench_bakes(Device& device, const BenchOptions& options, BenchReport& repor
     const double v = field_visibility(field, 0.5f * (tree.low + tree.high), {0, 0, 1});
     return v >= 0 && v < 0.9;  // the middle of a crown
   });
-  bake("bake/crown-baked", 15'000, [](const Prototype& tree) {
+  bake("bake/crown-baked", 5'000, [](const Prototype& tree) {
     const CrownBaked baked = bake_crown_faces(tree, {});
     return baked.faces.size() == tree.triangle_count() && !baked.texels.empty();
   });
