@@ -7,7 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/judged_views.hpp"
 #include "host/frame/runner.hpp"
+#include "sim/vantage.hpp"
 
 namespace understory {
 namespace {
@@ -28,9 +30,27 @@ constexpr Switch switches[] = {{"crowns on their own leaves and wood", "tree", &
 /// What was timed and drawn of one choice of methods.
 struct Choice {
   Methods methods;
-  std::vector<double> frame_ms, shading_ms;  // one per round and frame, in one order for all choices
-  std::vector<Plane> visibility;             // per frame
+  std::vector<double> frame_ms, shading_ms;  // one per round and view, in one order for all choices
+  std::vector<Plane> visibility;             // per view
 };
+
+/// A frame as a camera sees it.
+struct View {
+  int frame = 0;
+  Camera camera;
+};
+
+std::vector<View> views_of(const World& world, const std::vector<int>& frames) {
+  std::vector<View> views;
+  for (const int frame : frames)
+    for (const Camera& camera : vantage_cameras(world)) views.push_back({frame, camera});
+  return views;
+}
+
+Frame render(FrameRunner& runner, World& world, const View& view) {
+  world.scene.camera = view.camera;
+  return runner.render(view.frame, world.scene.time.at(view.frame));
+}
 
 constexpr double mib = 1024.0 * 1024.0;
 
@@ -49,15 +69,6 @@ double milliseconds_of_all(const Frame& frame) {
   double sum = 0;
   for (const auto& [pass, milliseconds] : frame.pass_ms) sum += milliseconds;
   return sum;
-}
-
-/// Frames `count` of `frames`, the first and the last among them.
-std::vector<int> spread_frames(int frames, int count) {
-  std::vector<int> indices;
-  count = std::clamp(count, 1, frames);
-  for (int i = 0; i < count; ++i)
-    indices.push_back(count == 1 ? 0 : static_cast<int>(std::lround(double(i) * (frames - 1) / (count - 1))));
-  return indices;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -81,28 +92,27 @@ Footprint open_alone(World& world, const Methods& methods, const std::string& se
   return footprint;
 }
 
-/// One round: every frame with this choice, after one that touches new buffers for the first time.
-void time_round(FrameRunner& runner, const Scene& scene, const std::vector<int>& frames, bool keep_pictures,
-                Choice& choice) {
+/// One round: every view with this choice, after one that touches new buffers for the first time.
+void time_round(FrameRunner& runner, World& world, const std::vector<View>& views, bool keep_pictures, Choice& choice) {
   runner.choose(choice.methods);
-  runner.render(frames.front(), scene.time.at(frames.front()));
-  for (const int index : frames) {
-    Frame frame = runner.render(index, scene.time.at(index));
+  render(runner, world, views.front());
+  for (const View& view : views) {
+    Frame frame = render(runner, world, view);
     choice.frame_ms.push_back(milliseconds_of_all(frame));
     choice.shading_ms.push_back(milliseconds_after_resolve(runner.plan(), frame));
     if (keep_pictures) choice.visibility.push_back(std::move(frame.visibility));
   }
 }
 
-/// Both of one size; `covered` holds per frame which pixels show a surface.
+/// Both of one size; `covered` holds per view which pixels show a surface.
 void compare_pictures(const Choice& with, const Choice& without, const std::vector<std::vector<bool>>& covered,
                       const ExplainOptions& options, TermWorth& worth) {
   std::size_t pixels = 0, changed = 0;
   double squares = 0;
-  for (std::size_t frame = 0; frame < covered.size(); ++frame)
-    for (std::size_t i = 0; i < covered[frame].size(); ++i) {
-      if (!covered[frame][i]) continue;
-      const double difference = std::abs(double(with.visibility[frame][i]) - without.visibility[frame][i]);
+  for (std::size_t view = 0; view < covered.size(); ++view)
+    for (std::size_t i = 0; i < covered[view].size(); ++i) {
+      if (!covered[view][i]) continue;
+      const double difference = std::abs(double(with.visibility[view][i]) - without.visibility[view][i]);
       ++pixels;
       changed += difference > options.visible;
       squares += difference * difference;
@@ -124,10 +134,10 @@ Spread95 cost_of(const Choice& with, const Choice& without, bool same_image) {
   return spread_of(std::move(differences));
 }
 
-std::vector<std::vector<bool>> covered_pixels(FrameRunner& runner, const Scene& scene, const std::vector<int>& frames) {
+std::vector<std::vector<bool>> covered_pixels(FrameRunner& runner, World& world, const std::vector<View>& views) {
   std::vector<std::vector<bool>> covered;
-  for (const int index : frames) {
-    const Frame frame = runner.render(index, scene.time.at(index));
+  for (const View& view : views) {
+    const Frame frame = render(runner, world, view);
     covered.emplace_back();
     for (const std::uint32_t owner : frame.owner) covered.back().push_back(owner != 0);
   }
@@ -183,13 +193,14 @@ Explanation explain_scene(World world, const ExplainOptions& options) {
   std::vector<Choice> choices = open_without_each(world, options, explanation);
 
   FrameRunner runner(device, world);
-  const auto covered = covered_pixels(runner, world.scene, explanation.frames);
-  for (const auto& frame : covered)
-    explanation.covered += static_cast<std::size_t>(std::count(frame.begin(), frame.end(), true));
+  const std::vector<View> views = views_of(world, explanation.frames);
+  const auto covered = covered_pixels(runner, world, views);
+  for (const auto& view : covered)
+    explanation.covered += static_cast<std::size_t>(std::count(view.begin(), view.end(), true));
   for (int round = 0; round < options.rounds; ++round) {
     if (options.progress) options.progress("round " + std::to_string(round + 1) + " of timing");
-    time_round(runner, world.scene, explanation.frames, round == 0, planned);
-    for (Choice& choice : choices) time_round(runner, world.scene, explanation.frames, round == 0, choice);
+    time_round(runner, world, views, round == 0, planned);
+    for (Choice& choice : choices) time_round(runner, world, views, round == 0, choice);
   }
 
   add_times(planned, explanation.whole);

@@ -14,7 +14,7 @@ namespace understory {
 
 struct ExplainOptions {
   std::string device;                                // as --device
-  int frames = 3;                                    // spread over the scene's, at least 1
+  int frames = 3;                                    // spread over the scene's, at least 1; seen by both cameras
   int rounds = 5;                                    // of timing, each choice in turn
   double visible = 0.01;                             // a pixel that changes by more counts as changed
   double negligible = 0.01;                          // a term that changes a smaller share of pixels could go
@@ -45,7 +45,7 @@ struct TermWorth {
 struct Explanation {
   DeviceInfo device;
   Plan plan;
-  std::vector<int> frames;  // that were rendered
+  std::vector<int> frames;  // that were rendered, by each of vantage_cameras()
   double device_s = 0;      // to open the device, once
   std::size_t covered = 0;  // pixels of them that show a surface
   Footprint whole;

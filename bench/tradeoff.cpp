@@ -33,7 +33,8 @@ class Measuring {
 
  private:
   static JudgeOptions judge_options(const World& world, const TradeoffOptions& options) {
-    return {spread_frames(world.scene.time.frames, options.frames), options.pixels, options.rays, true};
+    return {spread_frames(world.scene.time.frames, options.frames), options.pixels, options.rays,
+            !options.runnable_only};
   }
   bool stopped() const { return options_.stopped && options_.stopped(); }
   void done(const std::string& what);
@@ -239,7 +240,7 @@ TradeoffTable Measuring::table() {
   TradeoffTable table;
   table.rows = rows();
   for (const TradeoffRow& row : table.rows)
-    if (row.pareto && !stopped()) records_.judge_in_time(records_.at(row.name));
+    if (row.pareto && !options_.runnable_only && !stopped()) records_.judge_in_time(records_.at(row.name));
   table.rows = rows();
   const auto front = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.pareto; });
   steps_ = measured + cameras * static_cast<int>(front);

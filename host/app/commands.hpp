@@ -14,7 +14,7 @@ using Command = std::function<int()>;
 
 /// Exit codes beside those of ErrorKind.
 inline constexpr int some_frames_failed = 6;
-inline constexpr int comparison_over_threshold = 7;
+inline constexpr int comparison_over_threshold = 7;  // also: a budget that no methods keep
 /// Exit code after a signal: 130 for SIGINT, 143 for SIGTERM.
 inline constexpr int exit_code_of_signal(int signal) { return 128 + signal; }
 

@@ -64,8 +64,8 @@ void print_footprint(const std::string& name, const Footprint& footprint) {
 
 void print_explanation(const Explanation& explanation, const Scene& scene, double world_s,
                        const ExplainOptions& options) {
-  fmt::print("{}: {}x{}, frames {}, {} covered pixels, on {}\n", scene.name, scene.image.width, scene.image.height,
-             fmt::join(explanation.frames, ", "), explanation.covered, explanation.device.name);
+  fmt::print("{}: {}x{}, frames {}, by both cameras ({} covered pixels), on {}\n", scene.name, scene.image.width,
+             scene.image.height, fmt::join(explanation.frames, ", "), explanation.covered, explanation.device.name);
   print_plan(explanation.plan);
   fmt::print("\nWhat each term is worth, found by leaving it out\n");
   if (explanation.terms.empty()) fmt::print("  no term can be left out\n");
@@ -151,7 +151,9 @@ void add_explain(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<ExplainCommand>();
   add_scene_options(*command, options->scene);
   command->add_option("--size", options->scene.size, "Image size in pixels, e.g. 800x500")->type_name("WxH");
-  command->add_option("--frames", options->explain.frames, "Frames to judge by, spread over the scene's")
+  command
+      ->add_option("--frames", options->explain.frames,
+                   "Frames to judge by, spread over the scene's, each seen by both cameras")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--rounds", options->explain.rounds, "Rounds of timing, every choice in turn")

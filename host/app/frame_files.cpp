@@ -24,7 +24,7 @@ FrameFiles::FrameFiles(const std::filesystem::path& folder, const RunRecord& rec
     : folder_(folder),
       dumps_(record.dumps),
       supersample_(record.supersample),
-      attributes_{record.seed, methods, record.scene_sha256, "", ""} {}
+      attributes_{record.seed, methods, record.scene_sha256, "", "", ""} {}
 
 bool FrameFiles::dumps(const char* format) const {
   return std::find(dumps_.begin(), dumps_.end(), format) != dumps_.end();
@@ -50,13 +50,19 @@ FrameRecord FrameFiles::write(const FrameOutput& output) const {
   record.time_s = frame.time;
   record.passes = frame.pass_ms;
   record.validity = count_flags(frame.validity);
+  record.chosen = output.chosen;
+  ExrAttributes attributes = attributes_;
+  if (!output.chosen.empty()) {
+    attributes.methods = output.methods;
+    attributes.adaptive = output.chosen;
+  }
   const auto write_one = [&](const char* stem, const char* extension, auto write) {
     const std::string name = frame_file_name(stem, frame.index, extension);
     write(folder_ / name);
     record.files[name] = sha256_of_file(folder_ / name);
     if (record.sha256.empty()) record.sha256 = record.files[name];
   };
-  if (dumps("exr")) write_one("frame", "exr", [&](const auto& path) { write_frame_exr(path, frame, attributes_); });
+  if (dumps("exr")) write_one("frame", "exr", [&](const auto& path) { write_frame_exr(path, frame, attributes); });
   if (dumps("png")) {
     FramePictures pictures = output.samples;
     if (supersample_ == 1) pictures.add(frame);

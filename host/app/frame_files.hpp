@@ -21,6 +21,8 @@ struct FrameOutput {
   Frame frame;
   PosedGeometry geometry;  // empty unless asked for
   FramePictures samples;   // with more than one sample per pixel; else made from `frame`
+  std::string chosen;      // in an adaptive run the name of `methods`, which shaded it; else empty
+  Methods methods;
 };
 
 class FrameFiles {

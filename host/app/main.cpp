@@ -23,7 +23,8 @@ constexpr const char* footer = R"(First steps:
 
 Standard output carries results, standard error the log and progress.
 Exit codes: 0 done, 1 unexpected failure, 2 usage, 3 invalid input, 4 no usable device, 5 input/output,
-6 some frames failed, 7 comparison over its threshold, 130 or 143 stopped by a signal with the current frame finished.)";
+6 some frames failed, 7 comparison over its threshold or a budget that no methods keep, 130 or 143 stopped by a signal
+with the current frame finished.)";
 
 /// Log and messages go to standard error; colours only on a terminal and without NO_COLOR (https://no-color.org).
 void set_up_log() {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "host/app/commands.hpp"
@@ -17,7 +18,9 @@
 #include "host/app/frame_range.hpp"
 #include "host/app/interrupt.hpp"
 #include "host/app/options.hpp"
+#include "host/app/pace.hpp"
 #include "host/app/progress.hpp"
+#include "host/app/run_budget.hpp"
 #include "host/app/run_folder.hpp"
 #include "host/app/run_identity.hpp"
 #include "host/app/run_summary.hpp"
@@ -31,6 +34,7 @@ namespace {
 struct RunOptions {
   SceneOptions scene;
   DeviceOptions device;
+  BudgetOptions budget;
   std::string output, frames = ":", dump = "exr,png";
   int supersample = 1;
   bool resume = false, force = false, json = false, quiet = false;
@@ -68,13 +72,45 @@ void add_programs(const Device& device, RunRecord& record) {
   record.programs.assign(programs.begin(), programs.end());
 }
 
+/// Shades each frame of an adaptive run with the methods that its time so far leaves room for.
+class AdaptiveChoice {
+ public:
+  AdaptiveChoice(std::vector<PaceStep> steps, double max_ms)
+      : steps_(std::move(steps)), pace_(times_of(steps_), max_ms) {}
+
+  /// Before a frame.
+  void choose(FrameRunner& runner, FrameOutput& output) {
+    const PaceStep& step = steps_[pace_.level()];
+    if (chosen_ != pace_.level()) runner.choose(step.methods);
+    chosen_ = pace_.level();
+    output.chosen = step.name;
+    output.methods = step.methods;
+  }
+  /// After it.
+  void add(const Frame& frame) {
+    double sum = 0;
+    for (const auto& [pass, ms] : frame.pass_ms) sum += ms;
+    pace_.add(sum);
+  }
+
+ private:
+  static std::vector<double> times_of(const std::vector<PaceStep>& steps) {
+    std::vector<double> times;
+    for (const PaceStep& step : steps) times.push_back(step.ms);
+    return times;
+  }
+  std::vector<PaceStep> steps_;
+  Pace pace_;
+  std::optional<std::size_t> chosen_;
+};
+
 /// Computes and writes the frames of `indices`; returns the signal that ended it early, or 0.
-int compute_frames(const RunOptions& options, const Scene& scene, const std::vector<int>& indices, int wanted,
-                   RunFolder& folder, RunRecord& record) {
+int compute_frames(const RunOptions& options, const Scene& scene, const std::vector<PaceStep>& steps,
+                   const std::vector<int>& indices, int wanted, RunFolder& folder, RunRecord& record) {
   Device device(options.device.device);
   record.device = device_json(device.info()).dump();
   require_same_run(folder, record);
-  const World world = read_world(scene);
+  const World world = read_world(scene, !steps.empty());
   FrameRunner runner(device, world);
   record.plan.clear();
   for (const PlannedPass& pass : runner.plan().passes) record.plan.push_back(pass.name);
@@ -83,10 +119,14 @@ int compute_frames(const RunOptions& options, const Scene& scene, const std::vec
 
   const FrameFiles files(folder.path(), record, scene.methods);
   Progress progress(wanted, wanted - static_cast<int>(indices.size()), options.quiet);
+  std::optional<AdaptiveChoice> adaptive;
+  if (!steps.empty()) adaptive.emplace(steps, options.budget.max_ms);
   const auto compute = [&](int index) -> FrameWriter {
     const auto output = std::make_shared<FrameOutput>();
+    if (adaptive) adaptive->choose(runner, *output);
     const auto started = std::chrono::steady_clock::now();
     files.compute(runner, index, scene.time.at(index), *output);
+    if (adaptive) adaptive->add(output->frame);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     return [&, output, ms = elapsed.count()] {
       FrameRecord frame = files.write(*output);
@@ -109,9 +149,20 @@ int run(const RunOptions& options) {
   use_threads(options.device);
   catch_interrupts();
   const std::vector<std::string> dumps = parse_dumps(options.dump);
-  const Scene scene = load_scene(options.scene);
+  Scene scene = load_scene(options.scene);
   const FrameRange range = parse_frame_range(options.frames, scene.time.frames);
+  RunBudget budget;
+  if (options.budget.given()) {
+    budget = choose_for_run(options.budget, options.device, scene, options.quiet);
+    if (budget.signal != 0) return exit_code_of_signal(budget.signal);
+    if (!budget.kept) {
+      spdlog::error("{}", budget.refusal);
+      return comparison_over_threshold;
+    }
+    scene.methods = budget.methods;
+  }
   RunRecord record = describe_run(scene, dumps, options.supersample);
+  if (budget.kept) record.budget = budget.record;
   RunFolder folder(options.output, options.resume  ? ExistingRun::resume
                                    : options.force ? ExistingRun::replace
                                                    : ExistingRun::refuse);
@@ -123,7 +174,8 @@ int run(const RunOptions& options) {
   if (options.resume && !options.quiet)
     spdlog::info("{} of {} frames are there and whole", range.count() - static_cast<int>(indices.size()),
                  range.count());
-  const int signal = indices.empty() ? 0 : compute_frames(options, scene, indices, range.count(), folder, record);
+  const int signal =
+      indices.empty() ? 0 : compute_frames(options, scene, budget.steps, indices, range.count(), folder, record);
 
   record.complete = signal == 0 && record.failed.empty();
   if (record.complete) write_products(folder.path(), record, scene);
@@ -156,6 +208,7 @@ void add_run(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   CLI::Option* resume = command->add_flag("--resume", options->resume, "Go on with the run in the folder");
   command->add_flag("--force", options->force, "Replace the files of another run")->excludes(resume);
+  add_budget_options(*command, options->budget);
   add_device_options(*command, options->device);
   command->add_flag("--json", options->json, "Print run.json instead of the summary");
   command->add_flag("--quiet", options->quiet, "No progress");
@@ -164,8 +217,11 @@ void add_run(CLI::App& program, Command& chosen) {
       "of\n"
       "threads. After an interruption, even SIGKILL or a power cut, the same command with --resume computes what is\n"
       "missing and ends with the same bytes. Ctrl-C finishes the frame at hand first.\n"
+      "--max-error and --max-ms choose the methods by what they cost and err in this scene on this device, measured\n"
+      "once and kept; exit code 7 when none keeps the budget. Only with --max-ms do methods change during a run.\n"
       "  understory run sim/scenes/meadow.yaml -o out\n"
       "  understory run sim/scenes/meadow.yaml -o still --frames 12 --size 1600x1000 --supersample 3 --dump png\n"
+      "  understory run sim/scenes/meadow.yaml -o right --max-error 0.15\n"
       "  understory run sim/scenes/meadow.yaml -o gale --set wind.speed=18 --set seed=7 --tree ellipsoid-cap");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

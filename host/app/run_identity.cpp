@@ -52,7 +52,8 @@ RunRecord describe_run(const Scene& scene, const std::vector<std::string>& dumps
   record.methods = {{"tree", scene.methods.tree},
                     {"grass", scene.methods.grass},
                     {"crowns", scene.methods.crowns},
-                    {"occluders", scene.methods.occluders}};
+                    {"occluders", scene.methods.occluders},
+                    {"near", scene.methods.near}};
   return record;
 }
 

@@ -15,8 +15,10 @@ using Json = nlohmann::ordered_json;
 Json to_json(const FrameRecord& frame) {
   Json validity = Json::object();
   for (const auto& [code, count] : frame.validity) validity[std::to_string(code)] = count;
-  return {{"index", frame.index},   {"time_s", frame.time_s}, {"ms", frame.ms},      {"passes", frame.passes},
-          {"sha256", frame.sha256}, {"files", frame.files},   {"validity", validity}};
+  Json json = {{"index", frame.index},   {"time_s", frame.time_s}, {"ms", frame.ms},      {"passes", frame.passes},
+               {"sha256", frame.sha256}, {"files", frame.files},   {"validity", validity}};
+  if (!frame.chosen.empty()) json["chosen"] = frame.chosen;
+  return json;
 }
 
 FrameRecord frame_from_json(const Json& json) {
@@ -27,9 +29,35 @@ FrameRecord frame_from_json(const Json& json) {
   json.at("passes").get_to(frame.passes);
   json.at("sha256").get_to(frame.sha256);
   json.at("files").get_to(frame.files);
+  frame.chosen = json.value("chosen", "");
   for (const auto& [code, count] : json.at("validity").items())
     frame.validity[static_cast<std::uint32_t>(std::stoul(code))] = count.get<std::uint64_t>();
   return frame;
+}
+
+Json to_json(const BudgetRecord& budget) {
+  return {{"max_error", budget.max_error},         {"max_ms", budget.max_ms},           {"choice", budget.choice},
+          {"promised_rmse", budget.promised_rmse}, {"promised_ms", budget.promised_ms}, {"chosen_by", budget.chosen_by},
+          {"checked_on", budget.checked_on},       {"found_rmse", budget.found_rmse}};
+}
+
+BudgetRecord budget_from_json(const Json& json) {
+  BudgetRecord budget;
+  json.at("max_error").get_to(budget.max_error);
+  json.at("max_ms").get_to(budget.max_ms);
+  json.at("choice").get_to(budget.choice);
+  json.at("promised_rmse").get_to(budget.promised_rmse);
+  json.at("promised_ms").get_to(budget.promised_ms);
+  json.at("chosen_by").get_to(budget.chosen_by);
+  json.at("checked_on").get_to(budget.checked_on);
+  json.at("found_rmse").get_to(budget.found_rmse);
+  return budget;
+}
+
+std::string budget_text(const RunRecord& record) {
+  if (!record.budget) return "none";
+  if (record.budget->max_error > 0) return fmt::format("--max-error {:g}", record.budget->max_error);
+  return fmt::format("--max-ms {:g}", record.budget->max_ms);
 }
 
 Json validity_of_all(const RunRecord& record) {
@@ -58,6 +86,7 @@ std::vector<std::pair<std::string, std::string>> identity(const RunRecord& recor
           {"scene (with --set and the method options)", record.scene_sha256},
           {"input files", Json(record.inputs).dump()},
           {"device", device_identity(record.device)},
+          {"budget", budget_text(record)},
           {"size", fmt::format("{}x{}", record.width, record.height)},
           {"supersample", std::to_string(record.supersample)},
           {"dump", fmt::format("{}", fmt::join(record.dumps, ","))}};
@@ -85,6 +114,8 @@ std::vector<std::string> differences(const RunRecord& earlier, const RunRecord& 
   return lines;
 }
 
+bool is_adaptive(const RunRecord& record) { return record.budget && record.budget->max_ms > 0; }
+
 std::string to_json_text(const RunRecord& record) {
   Json json = {{"understory", record.version},
                {"program_sha256", record.program_sha256},
@@ -98,10 +129,12 @@ std::string to_json_text(const RunRecord& record) {
                {"supersample", record.supersample},
                {"dump", record.dumps},
                {"methods", record.methods},
+               {"adaptive", is_adaptive(record)},
                {"plan", record.plan},
                {"programs", record.programs},
                {"peak_rss_mib", record.peak_rss_mib},
                {"validity", validity_of_all(record)}};
+  if (record.budget) json["budget"] = to_json(*record.budget);
   Json frames = Json::array(), failed = Json::array();
   for (const auto& [index, frame] : record.frames) frames.push_back(to_json(frame));
   for (const FailedFrame& frame : record.failed) failed.push_back({{"index", frame.index}, {"message", frame.message}});
@@ -128,6 +161,7 @@ RunRecord parse_run_record(const std::string& text, const std::string& where) {
     json.at("supersample").get_to(record.supersample);
     json.at("dump").get_to(record.dumps);
     json.at("methods").get_to(record.methods);
+    if (json.contains("budget")) record.budget = budget_from_json(json.at("budget"));
     json.at("plan").get_to(record.plan);
     json.at("programs").get_to(record.programs);
     json.at("peak_rss_mib").get_to(record.peak_rss_mib);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,22 @@ struct FrameRecord {
   std::map<std::string, std::string> files;         // name inside the folder -> SHA-256
   std::string sha256;                               // of the frame's main file: EXR, else PNG, else VTK, else PLY
   std::map<std::uint32_t, std::uint64_t> validity;  // code (a single bit) -> pixels that carry it
+  std::string chosen;                               // methods of a frame of an adaptive run; empty: the run's
 };
 
 struct FailedFrame {
   int index = 0;
   std::string message;
+};
+
+/// What --max-error or --max-ms chose before the run, what that promised, and what was found on other frames. Errors
+/// are upper ends of 95 % intervals of the RMSE of V in a frame (bench/budget.hpp).
+struct BudgetRecord {
+  double max_error = 0, max_ms = 0;  // what was asked for; the other is 0
+  std::string choice;                // methods, in words
+  double promised_rmse = 0, promised_ms = 0;
+  std::vector<int> chosen_by, checked_on;  // frames; none to check on: the scene has no more
+  double found_rmse = 0;                   // in the worst of `checked_on`
 };
 
 struct RunRecord {
@@ -38,6 +50,7 @@ struct RunRecord {
   std::string scene;  // file as given
   std::uint64_t seed = 0;
   std::map<std::string, std::string> methods;
+  std::optional<BudgetRecord> budget;  // methods were chosen, not asked for
   std::vector<std::string> plan, programs;
   double peak_rss_mib = 0;
   std::map<int, FrameRecord> frames;
@@ -47,6 +60,9 @@ struct RunRecord {
 
 /// Keys whose values differ, with both values, one line each: what keeps `now` from going on with `earlier`.
 std::vector<std::string> differences(const RunRecord& earlier, const RunRecord& now);
+
+/// Whether the methods may change from frame to frame: then frames are not a function of (scene, seed, time) alone.
+bool is_adaptive(const RunRecord& record);
 
 std::string to_json_text(const RunRecord& record);
 std::string to_json_line(const FrameRecord& frame);

@@ -2,8 +2,10 @@
 #include "host/app/run_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 namespace understory {
@@ -58,6 +60,34 @@ std::string time_table(const RunRecord& record) {
   return table;
 }
 
+/// What was promised and what came of it; empty for a run whose methods were asked for.
+std::string budget_lines(const RunRecord& record) {
+  if (!record.budget) return "";
+  const BudgetRecord& budget = *record.budget;
+  std::string text = budget.max_error > 0 ? fmt::format("\n--max-error {:g}: {}\n", budget.max_error, budget.choice)
+                                          : fmt::format("\n--max-ms {:g}: {}\n", budget.max_ms, budget.choice);
+  text += fmt::format("  RMSE of V in a frame: promised {:.4f} by frames {}", budget.promised_rmse,
+                      fmt::join(budget.chosen_by, ", "));
+  text += budget.checked_on.empty()
+              ? "; the scene has no others to check it on\n"
+              : fmt::format("; found {:.4f} on frames {}\n", budget.found_rmse, fmt::join(budget.checked_on, ", "));
+  if (budget.max_ms <= 0) return text;
+  std::vector<double> sums;
+  std::set<std::string> chosen;
+  std::size_t late = 0;
+  for (const auto& [index, frame] : record.frames) {
+    double sum = 0;
+    for (const auto& [pass, ms] : frame.passes) sum += ms;
+    sums.push_back(sum);
+    late += sum > budget.max_ms;
+    chosen.insert(frame.chosen);
+  }
+  return text + fmt::format(
+                    "  device time of a frame: promised {:.2f} ms; found {:.2f} ms (median), {} of {} frames over "
+                    "the budget\n  adaptive: {} choices of methods were used, `chosen` in run.json tells which\n",
+                    budget.promised_ms, median(sums), late, sums.size(), chosen.size());
+}
+
 }  // namespace
 
 double median(std::vector<double> values) {
@@ -74,6 +104,7 @@ std::string run_summary(const std::filesystem::path& folder, const RunRecord& re
   text += file_lines(record);
   for (const char* name : {"planes.pvd", "geometry.pvd", "contact_sheet.png", "movie.ogv", "run.json"})
     if (std::filesystem::exists(folder / name)) text += fmt::format("  {}\n", name);
+  text += budget_lines(record);
   return record.frames.empty() ? text : text + '\n' + time_table(record);
 }
 

@@ -89,6 +89,7 @@ void write_frame_exr(const std::filesystem::path& path, const Frame& frame, cons
   texts["understory:seed"] = std::to_string(attributes.seed);  // 64 bits; header integers have 32
   if (!attributes.scene_sha256.empty()) texts["understory:scene_sha256"] = attributes.scene_sha256;
   if (!attributes.channels_in.empty()) texts["understory:channels_in"] = attributes.channels_in;
+  if (!attributes.adaptive.empty()) texts["understory:adaptive"] = attributes.adaptive;
   if (!attributes.truth.empty()) texts["understory:truth"] = attributes.truth;
   numbers["understory:frame"] = frame.index;
   numbers["understory:time_s"] = frame.time;

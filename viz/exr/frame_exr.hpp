@@ -17,6 +17,7 @@ struct ExrAttributes {
   Methods methods;
   std::string scene_sha256;  // of the resolved scene; empty: not stored
   std::string channels_in;   // which channels of a foreign file were taken; empty: not stored
+  std::string adaptive;      // methods in words, of a run that changes them to keep a time; empty: not stored
   std::string truth;         // how truth was traced, JSON; empty: not stored
 };
 
