@@ -205,7 +205,7 @@ void Measuring::describe(TradeoffTable& table) const {
   table.prediction = prediction_;
   PredictionQuality& quality = table.prediction;
   for (const TradeoffRow& row : table.rows) {
-    if (!row.predicted_ms || !row.temporal || !row.verified) continue;
+    if (!row.predicted_ms || !row.verified) continue;
     const double time = *row.predicted_ms / row.ms.median - 1, error = *row.predicted_rmse - row.error.rmse;
     ++quality.measured;
     quality.ms_bias += time;
@@ -240,7 +240,7 @@ TradeoffTable Measuring::table() {
   TradeoffTable table;
   table.rows = rows();
   for (const TradeoffRow& row : table.rows)
-    if (row.pareto && !options_.runnable_only && !stopped()) records_.judge_in_time(records_.at(row.name));
+    if (row.pareto && !stopped()) records_.judge_in_time(records_.at(row.name));
   table.rows = rows();
   const auto front = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.pareto; });
   steps_ = measured + cameras * static_cast<int>(front);

@@ -90,7 +90,7 @@ VariantRecord& VariantRecords::measured(const Variant& variant) {
 }
 
 void VariantRecords::judge_in_time(VariantRecord& record) {
-  if (record.row.temporal || !record.row.verified) return;
+  if (options_.runnable_only || record.row.temporal || !record.row.verified) return;
   judge_.choose(record.row.variant);
   record.row.temporal = judge_.temporal_error(record.values.visibility, judge_.following());
   store_.save(record);

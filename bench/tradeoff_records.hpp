@@ -16,7 +16,7 @@ class VariantRecords {
 
   /// The variant's record: from before, from the store, or measured now; verified before it is timed.
   VariantRecord& measured(const Variant& variant);
-  /// Adds its error in time, if that is not known yet.
+  /// Adds its error in time, if that is not known yet and wanted: not with runnable_only, whose judge lacks the truth.
   void judge_in_time(VariantRecord& record);
   /// Times it so often once more.
   void time_once_more(VariantRecord& record);
