@@ -12,6 +12,7 @@
 #include "host/app/bench_errors.hpp"
 #include "host/app/bench_json.hpp"
 #include "host/app/bench_print.hpp"
+#include "host/app/bench_roofline.hpp"
 #include "host/app/bench_tune.hpp"
 #include "host/app/commands.hpp"
 #include "host/app/options.hpp"
@@ -28,6 +29,7 @@ struct BenchCommand {
   bool builds = false;       // only build, and tell how long it took
   bool tune = false;         // measure and save how passes are launched best
   bool skip_builds = false;  // leave out cold and warm builds
+  std::string roofline;      // PNG or SVG of the results under their roofs; empty: none
   std::string compare;       // file of an earlier report; empty: none
   std::string grids;         // Markdown file of the errors of moving bodies; empty: none
   std::string accuracy;      // Markdown file to write; empty: times are measured, not errors
@@ -62,7 +64,9 @@ std::vector<BenchReport> measure(BenchCommand& command) {
 int bench(BenchCommand& command) {
   std::vector<BenchResult> then;
   if (!command.compare.empty()) then = read_bench_results(command.compare);
+  if (!command.roofline.empty()) require_picture_name(command.roofline);
   const std::vector<BenchReport> reports = measure(command);
+  if (!command.roofline.empty()) write_roofline(reports.front(), command.roofline);
   const std::vector<BenchChange> changes = compare_results(then, reports.front().results);
   if (command.json) {
     nlohmann::ordered_json json = bench_json(reports);
@@ -142,6 +146,9 @@ void add_options(CLI::App& app, BenchCommand& command) {
   CLI::Option* json = app.add_flag("--json", command.json, "Print one JSON object");
   app.add_flag("--csv", command.csv, "Print comma-separated values")->excludes(json);
   app.add_option("--compare", command.compare, "Report of an earlier --json to set beside this one");
+  app.add_option("--roofline", command.roofline,
+                 "Draw the kernels under their roofs into this PNG or SVG, of several devices the first")
+      ->type_name("FILE");
   app.add_flag("--builds", command.builds, "Only build and run each kernel once, and tell how long it took");
   app.add_flag(
       "--tune", command.tune,

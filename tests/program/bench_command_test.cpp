@@ -79,6 +79,20 @@ TEST(Bench, TellsColdAndWarmBuilds) {
       EXPECT_GT(result.at(cache).at(key).get<double>(), 0) << cache;
 }
 
+TEST(Bench, DrawsTheRoofline) {
+  const TemporaryFolder folder;
+  const FinishedProcess bench =
+      small_bench({"--filter", "kernel/open-dome", "--roofline", (folder / "roof.svg").string()});
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const std::string svg = file_text(folder / "roof.svg");
+  EXPECT_THAT(svg, HasSubstr("1  kernel/open-dome: "));
+  EXPECT_THAT(svg, HasSubstr("multiply-add "));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("nan")));
+  const FinishedProcess refused = small_bench({"--filter", "kernel/open-dome", "--roofline", "roof.jpg"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--roofline roof.jpg: allowed are names that end in .png or .svg"));
+}
+
 TEST(Bench, SetsDevicesSideBySide) {
   const FinishedProcess bench =
       small_bench({"--filter", "kernel/open-dome", "--device", "cpu", "--device", "0", "--json"});

@@ -62,21 +62,31 @@ std::vector<double> linear_ticks(double high) {
 /// From values to pixels.
 class Axes {
  public:
-  explicit Axes(const std::vector<ChartPoint>& points) {
-    for (const ChartPoint& point : points) {
-      low_ = std::min(low_, point.x_low);
-      high_ = std::max(high_, point.x_high);
-      top_ = std::max(top_, point.y_high);
-    }
+  explicit Axes(const ScatterChart& chart) : y_logarithmic_(chart.y_logarithmic) {
+    const auto hold = [&](double x_low, double x_high, double y_low, double y_high) {
+      low_ = std::min(low_, x_low);
+      high_ = std::max(high_, x_high);
+      floor_ = std::min(floor_, y_low);
+      top_ = std::max(top_, y_high);
+    };
+    for (const ChartPoint& point : chart.points) hold(point.x_low, point.x_high, point.y_low, point.y_high);
+    for (const ChartLine& line : chart.lines)
+      hold(std::min(line.x_from, line.x_to), std::max(line.x_from, line.x_to), std::min(line.y_from, line.y_to),
+           std::max(line.y_from, line.y_to));
     if (low_ > high_) low_ = 0.5, high_ = 2;
     low_ /= 1.25;
     high_ *= 1.25;
-    top_ = top_ > 0 ? 1.05 * top_ : 1;
+    if (y_logarithmic_ && !(floor_ > 0 && floor_ <= top_)) floor_ = 0.5, top_ = 2;
+    floor_ = y_logarithmic_ ? floor_ / 1.5 : 0;
+    top_ = y_logarithmic_ ? top_ * 1.5 : top_ > 0 ? 1.05 * top_ : 1;
   }
   double x(double value) const {
     return left + (width - left - right) * std::log(value / low_) / std::log(high_ / low_);
   }
-  double y(double value) const { return top + plot_height * (1 - value / top_); }
+  double y(double value) const {
+    const double share = y_logarithmic_ ? std::log(value / floor_) / std::log(top_ / floor_) : value / top_;
+    return top + plot_height * (1 - share);
+  }
   glm::dvec2 at(const ChartPoint& point) const { return {x(point.x), y(point.y)}; }
 
   void draw(const ScatterChart& chart, Drawing& drawing) const {
@@ -85,7 +95,7 @@ class Axes {
       drawing.lines.push_back({{x(tick), top}, {x(tick), floor}, 1, faint});
       drawing.words.push_back({fmt::format("{:g}", tick), {x(tick), floor + 6}, font_size, Align::middle, ink});
     }
-    for (const double tick : linear_ticks(top_)) {
+    for (const double tick : y_logarithmic_ ? logarithmic_ticks(floor_, top_) : linear_ticks(top_)) {
       drawing.lines.push_back({{left, y(tick)}, {wall, y(tick)}, 1, faint});
       drawing.words.push_back({fmt::format("{:g}", tick), {left - 8, y(tick) - 7}, font_size, Align::end, ink});
     }
@@ -97,7 +107,8 @@ class Axes {
   }
 
  private:
-  double low_ = 1e300, high_ = 0, top_ = 0;
+  bool y_logarithmic_;
+  double low_ = 1e300, high_ = 0, floor_ = 1e300, top_ = 0;
 };
 
 void draw_point(const ChartPoint& point, const Axes& axes, Drawing& drawing) {
@@ -128,9 +139,14 @@ void draw_numbers(const std::vector<ChartPoint>& points, const Axes& axes, Drawi
 }
 
 Drawing drawing_of(const ScatterChart& chart) {
-  const Axes axes(chart.points);
+  const Axes axes(chart);
   Drawing drawing;
   axes.draw(chart, drawing);
+  for (const ChartLine& line : chart.lines) {
+    const glm::dvec2 from(axes.x(line.x_from), axes.y(line.y_from)), to(axes.x(line.x_to), axes.y(line.y_to));
+    drawing.lines.push_back({from, to, 2, ink});
+    drawing.words.push_back({line.label, to - glm::dvec2(6, 20), font_size, Align::end, ink});
+  }
   std::vector<ChartPoint> front;
   for (const ChartPoint& point : chart.points) {
     if (point.marked)
@@ -139,7 +155,7 @@ Drawing drawing_of(const ScatterChart& chart) {
       draw_point(point, axes, drawing);
   }
   std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  for (std::size_t i = 1; i < front.size(); ++i) {
+  for (std::size_t i = 1; chart.joined && i < front.size(); ++i) {
     const glm::dvec2 from = axes.at(front[i - 1]), to = axes.at(front[i]), corner(to.x, from.y);
     drawing.lines.push_back({from, corner, 1, marked});
     drawing.lines.push_back({corner, to, 1, marked});

@@ -1,5 +1,6 @@
-// Points with intervals over a logarithmic and a linear axis, the marked ones numbered and joined: a chart of time and
-// error. The same drawing as PNG and as SVG, without a display and without OpenGL.
+// Points with intervals and ceilings over a logarithmic and a linear or logarithmic axis, the marked ones numbered:
+// charts of time and error, and of speed under its roofs. The same drawing as PNG and as SVG, without a display and
+// without OpenGL.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -16,9 +17,18 @@ struct ChartPoint {
   std::string label;
 };
 
+/// A ceiling: straight on the page, named where it ends.
+struct ChartLine {
+  double x_from = 1, y_from = 1, x_to = 1, y_to = 1;  // above 0
+  std::string label;
+};
+
 struct ScatterChart {
   std::string title, x_title, y_title;
   std::vector<ChartPoint> points;
+  std::vector<ChartLine> lines = {};
+  bool joined = true;          // marked points, by a staircase
+  bool y_logarithmic = false;  // all y above 0
 };
 
 Picture draw_chart(const ScatterChart& chart);
