@@ -1,8 +1,16 @@
 #include "bench/budget_check.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <thread>
 
 #include "bench/tradeoff_judge.hpp"
 #include "host/trace/bake_cache.hpp"
@@ -18,6 +26,27 @@ ContentHash hash_of(const TradeoffOptions& options) {
     hash.add(number);
   return hash;
 }
+
+/// Held by the process that measures: others that want the same wait for its table instead of disturbing its clocks.
+/// Goes with the process, however it ends.
+class MeasuringLock {
+ public:
+  /// Waits until the lock is free or `stopped` says so. A file that cannot be made is no reason not to measure.
+  MeasuringLock(const std::filesystem::path& file, const std::function<bool()>& stopped)
+      : descriptor_(::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
+    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+           !(stopped && stopped()))
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  ~MeasuringLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  MeasuringLock(const MeasuringLock&) = delete;
+  MeasuringLock& operator=(const MeasuringLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 double worst_of(const std::vector<ViewError>& views) {
   double worst = 0;
@@ -55,11 +84,15 @@ TradeoffOptions measuring_for_budget(const std::string& identity) {
 
 TradeoffTable tradeoff_for_budget(Device& device, World& world, TradeoffOptions options) {
   const ContentHash hash = hash_of(options);
-  if (const std::optional<std::string> kept = load_bake("tradeoff", hash))
-    return read_tradeoff(*kept, "the kept tradeoff of " + world.scene.name);
+  const std::filesystem::path folder = bake_cache_folder();
+  std::optional<MeasuringLock> lock;
+  for (int look = 0; look < 2; ++look) {  // and once more when others may have measured it meanwhile
+    if (const std::optional<std::string> kept = load_bake("tradeoff", hash))
+      return read_tradeoff(*kept, "the kept tradeoff of " + world.scene.name);
+    if (look == 0 && !folder.empty()) lock.emplace(folder / "tradeoff.lock", options.stopped);
+  }
   // Variants are kept one by one meanwhile, so that an interrupted measurement goes on.
-  const std::filesystem::path kept = bake_cache_folder();
-  if (!kept.empty()) options.folder = kept / ("tradeoff-" + hash.text());
+  if (!folder.empty()) options.folder = folder / ("tradeoff-" + hash.text());
   TradeoffTable table = measure_tradeoff(device, world, options);
   if (options.stopped && options.stopped()) return table;
   store_bake("tradeoff", hash, tradeoff_json(table));
