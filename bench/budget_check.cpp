@@ -31,9 +31,10 @@ ContentHash hash_of(const TradeoffOptions& options) {
 /// Goes with the process, however it ends.
 class MeasuringLock {
  public:
+  MeasuringLock() = default;
   /// Waits until the lock is free or `stopped` says so. A file that cannot be made is no reason not to measure.
-  MeasuringLock(const std::filesystem::path& file, const std::function<bool()>& stopped)
-      : descriptor_(::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
+  void take(const std::filesystem::path& file, const std::function<bool()>& stopped) {
+    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
     while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
            !(stopped && stopped()))
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -45,7 +46,7 @@ class MeasuringLock {
   MeasuringLock& operator=(const MeasuringLock&) = delete;
 
  private:
-  int descriptor_;
+  int descriptor_ = -1;
 };
 
 double worst_of(const std::vector<ViewError>& views) {
@@ -85,11 +86,11 @@ TradeoffOptions measuring_for_budget(const std::string& identity) {
 TradeoffTable tradeoff_for_budget(Device& device, World& world, TradeoffOptions options) {
   const ContentHash hash = hash_of(options);
   const std::filesystem::path folder = bake_cache_folder();
-  std::optional<MeasuringLock> lock;
+  MeasuringLock lock;
   for (int look = 0; look < 2; ++look) {  // and once more when others may have measured it meanwhile
     if (const std::optional<std::string> kept = load_bake("tradeoff", hash))
       return read_tradeoff(*kept, "the kept tradeoff of " + world.scene.name);
-    if (look == 0 && !folder.empty()) lock.emplace(folder / "tradeoff.lock", options.stopped);
+    if (look == 0 && !folder.empty()) lock.take(folder / "tradeoff.lock", options.stopped);
   }
   // Variants are kept one by one meanwhile, so that an interrupted measurement goes on.
   if (!folder.empty()) options.folder = folder / ("tradeoff-" + hash.text());
