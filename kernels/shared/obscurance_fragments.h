@@ -12,16 +12,6 @@ typedef struct {
   whole turn;   // of the rotation pattern
 } Pixels;
 
-#if W == 1
-#define LANE_NUMBERS 0
-#elif W == 4
-#define LANE_NUMBERS ((int4)(0, 1, 2, 3))
-#elif W == 8
-#define LANE_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
-#else
-#define LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#endif
-
 SHARED Pixels pixels_of(uint item, const ObscuranceSetting* setting) {
   const int first = (int)(item * W);
   whole y = (whole)(first / setting->width);

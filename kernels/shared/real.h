@@ -58,8 +58,19 @@ typedef JOIN(uint, W) bits;
 #define AS_WHOLE(value) JOIN(as_int, W)(value)
 #endif
 
+// 0, 1, ..., W - 1.
+#if W == 1
+#define LANE_NUMBERS 0
+#elif W == 4
+#define LANE_NUMBERS ((int4)(0, 1, 2, 3))
+#elif W == 8
+#define LANE_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define LANE_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#endif
+
 #if W > 1
-// PoCL's own `any` tests pair after pair with a branch each: three times the instructions.
+// All lanes' bits, or-ed. PoCL's own `any` tests pair after pair with a branch each: three times the instructions.
 SHARED int any_lane(truth condition) {
 #if W == 16
   const int8 eight = condition.lo | condition.hi;
