@@ -151,6 +151,9 @@ int run(const RunOptions& options) {
   const std::vector<std::string> dumps = parse_dumps(options.dump);
   Scene scene = load_scene(options.scene);
   const FrameRange range = parse_frame_range(options.frames, scene.time.frames);
+  RunFolder folder(options.output, options.resume  ? ExistingRun::resume
+                                   : options.force ? ExistingRun::replace
+                                                   : ExistingRun::refuse);
   RunBudget budget;
   if (options.budget.given()) {
     budget = choose_for_run(options.budget, options.device, scene, options.quiet);
@@ -163,9 +166,6 @@ int run(const RunOptions& options) {
   }
   RunRecord record = describe_run(scene, dumps, options.supersample);
   if (budget.kept) record.budget = budget.record;
-  RunFolder folder(options.output, options.resume  ? ExistingRun::resume
-                                   : options.force ? ExistingRun::replace
-                                                   : ExistingRun::refuse);
   take_over(folder, record);
 
   std::vector<int> indices;

@@ -55,14 +55,14 @@ void add_budget_options(CLI::App& command, BudgetOptions& options) {
       command
           .add_option("--max-error", options.max_error,
                       "Choose the fastest methods whose RMSE of V against traced truth stays below this in every frame")
-          ->check(CLI::PositiveNumber)
+          ->check(CLI::Range(1e-6, 1.0))
           ->type_name("E");
   CLI::Option* time =
       command
           .add_option(
               "--max-ms", options.max_ms,
               "Choose the most accurate methods that keep this device time of a frame, and adapt during the run")
-          ->check(CLI::PositiveNumber)
+          ->check(CLI::Range(1e-6, 1e6))
           ->type_name("T")
           ->excludes(error);
   for (const char* method : {"--tree", "--grass", "--crowns", "--occluders", "--near"})

@@ -71,7 +71,9 @@ void prepare_folder(const TradeoffCommand& command, const std::string& identity)
     fs::remove_all(folder / "errors", error);
   }
   fs::create_directories(folder / "variants", error);
-  if (error) throw Error(ErrorKind::input_output, fmt::format("{}: {}", folder.string(), error.message()));
+  if (error)
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
   write_file_atomically(note, identity);
 }
 

@@ -188,7 +188,7 @@ void add_truth(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   app->add_option("--max-distance", command->max_distance,
                   "Hits farther than this do not count, m; then there is no horizon either")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-6, 1e9));
   app->add_option("--mesh", command->meshes, "What blocks the sky of a G-buffer: OBJ, PLY, glTF; may be repeated")
       ->allow_extra_args(false);
   app->add_option("--up", command->up, "The axis that is up in the meshes (default: z for PLY, else y)")

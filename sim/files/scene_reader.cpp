@@ -79,7 +79,7 @@ void SceneReader::report(const Place& place, const std::string& path, const std:
 }
 
 const Node* SceneReader::find(const char* key) {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return node_.find(key);
 }
 

@@ -1,5 +1,7 @@
 // `run --max-error` and `--max-ms`: the methods are chosen, promised and checked; a run that does not adapt is the run
 // that names the same methods; a budget that nothing keeps is refused.
+#include <fstream>
+
 #include "tests/program/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -87,6 +89,17 @@ TEST(RunBudget, RefusesTwoBudgetsAndMethodsBesideOne) {
   EXPECT_EQ(run_tiny(folder / "out", {"--max-ms", "9", "--max-error", "0.1"}).exit_code, 2);
   EXPECT_EQ(run_tiny(folder / "out", {"--max-error", "0.1", "--tree", "ambient"}).exit_code, 2);
   EXPECT_EQ(run_tiny(folder / "out", {"--max-error", "-1"}).exit_code, 2);
+  EXPECT_EQ(run_tiny(folder / "out", {"--max-error", "1.5"}).exit_code, 2);
+}
+
+TEST(RunBudget, LooksAtTheFolderBeforeItMeasures) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "out");
+  std::ofstream(folder / "out/mine.txt") << "mine";
+  const FinishedProcess result = run_tiny(folder / "out", {"--max-error", "0.3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("not empty"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("measuring")));
 }
 
 }  // namespace

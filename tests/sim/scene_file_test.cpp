@@ -116,7 +116,8 @@ struct Mistake {
 const Mistake mistakes[] = {
     {"unknown_key", "terrain: {flat: {}}\nwind:\n  sped: 4\n", ":3:3: wind.sped", "unknown key",
      "did you mean 'speed'?"},
-    {"unknown_without_hint", "terrain: {flat: {}}\nzzzzzz: 1\n", ":2:1: zzzzzz", "unknown key", "allowed: name, seed"},
+    {"unknown_without_hint", "terrain: {flat: {}}\nzzzzzz: 1\n", ":2:1: zzzzzz", "unknown key",
+     "allowed: name, seed, origin, sky, time, image, camera, terrain, wind"},
     {"duplicate_key", "terrain: {flat: {}}\nseed: 1\nseed: 2\n", ":3:1: seed", "duplicate key", "scene.yaml:2:1"},
     {"merge_key", "terrain: &a {flat: {}}\nwind: {<<: *a}\n", ":2:8: wind.<<", "unknown key", "allowed: speed"},
     {"leading_zero", "terrain: {flat: {}}\nseed: 010\n", ":2:7: seed: 010", "",
