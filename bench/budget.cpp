@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -11,6 +12,7 @@
 namespace understory {
 namespace {
 
+constexpr double faster_enough = 0.95;    // of the other's time: less of a gain is not worth a look
 constexpr double z = 1.6448536269514722;  // 95 % of a normal distribution lie below
 
 /// Best first by `less`, of the rows that may be run.
@@ -22,6 +24,11 @@ std::vector<std::size_t> rows_in_order(const TradeoffTable& table, const Less& l
   if (rows.empty()) throw Error(ErrorKind::unexpected, "the tradeoff of " + table.scene + " holds no method to run");
   std::stable_sort(rows.begin(), rows.end(), less);
   return rows;
+}
+
+std::vector<std::size_t> rows_by_time(const TradeoffTable& table) {
+  return rows_in_order(table,
+                       [&](std::size_t a, std::size_t b) { return table.rows[a].ms.median < table.rows[b].ms.median; });
 }
 
 double draw_ms(const TradeoffRow& row) { return row.frame_ms - row.ms.median; }
@@ -46,15 +53,21 @@ double student_t95(int degrees) {
   return z + g1 / n + g2 / (n * n) + g3 / (n * n * n) + g4 / (n * n * n * n);
 }
 
+double worst_rmse(const std::vector<ViewError>& views) {
+  double worst = 0;
+  for (const ViewError& view : views)
+    if (view.all.pixels > 0) worst = std::max(worst, view.all.high);
+  return worst;
+}
+
 double promised_rmse(const std::vector<ViewError>& views, int frames_of_scene) {
   std::map<int, std::vector<double>> by_camera;
   std::set<int> frames;
-  double worst = 0;
+  const double worst = worst_rmse(views);
   for (const ViewError& view : views) {
     if (view.all.pixels == 0) continue;  // nothing is seen there
     by_camera[view.camera].push_back(view.all.high);
     frames.insert(view.frame);
-    worst = std::max(worst, view.all.high);
   }
   double squares = 0, highest = 0;
   int degrees = 0;
@@ -86,10 +99,8 @@ bool may_run(const TradeoffRow& row) {
 
 BudgetChoice cheapest_within(const TradeoffTable& table, int frames_of_scene, double max_rmse) {
   const std::vector<Promise> promises = promises_of(table, frames_of_scene);
-  const auto rows = rows_in_order(
-      table, [&](std::size_t a, std::size_t b) { return table.rows[a].ms.median < table.rows[b].ms.median; });
   BudgetChoice choice;
-  for (const std::size_t row : rows) {
+  for (const std::size_t row : rows_by_time(table)) {
     if (choice.nearest == no_row || promises[row].rmse < promises[choice.nearest].rmse) choice.nearest = row;
     if (promises[row].rmse > max_rmse) continue;
     choice.row = choice.nearest = row;
@@ -97,6 +108,19 @@ BudgetChoice cheapest_within(const TradeoffTable& table, int frames_of_scene, do
   }
   choice.promise = promises[choice.nearest];
   return choice;
+}
+
+std::vector<std::size_t> doubtful_rows(const TradeoffTable& table, int frames_of_scene, double max_rmse,
+                                       std::size_t chosen) {
+  const double limit_ms =
+      chosen == no_row ? std::numeric_limits<double>::infinity() : faster_enough * table.rows[chosen].ms.median;
+  std::vector<std::size_t> doubtful;
+  for (const std::size_t i : rows_by_time(table)) {
+    const TradeoffRow& row = table.rows[i];
+    const bool kept = worst_rmse(row.views) <= max_rmse, promised = promise_of(row, frames_of_scene).rmse <= max_rmse;
+    if (row.ms.median < limit_ms && kept && !promised) doubtful.push_back(i);
+  }
+  return doubtful;
 }
 
 BudgetChoice most_accurate_within(const TradeoffTable& table, int frames_of_scene, double max_ms) {

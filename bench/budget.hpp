@@ -18,6 +18,9 @@ struct Promise {
   double ms = 0;    // device time of a whole frame: drawing and shading, upper ends of their intervals
 };
 
+/// The largest error among these views; those that see nothing do not count.
+double worst_rmse(const std::vector<ViewError>& views);
+
 /// The 95 % prediction bound for one frame more: mean over the measured frames, the worse camera's, and
 /// t s sqrt(1 + 1/n), where s is the scatter of frames about their camera's mean, pooled over cameras, and t Student's
 /// with as many degrees of freedom. No less than the worst frame that was measured. When all frames of the scene were
@@ -41,6 +44,11 @@ struct BudgetChoice {
 
 /// The fastest row whose promise is within `max_rmse`. Throws Error(unexpected) for a table without a row to run.
 BudgetChoice cheapest_within(const TradeoffTable& table, int frames_of_scene, double max_rmse);
+
+/// Rows that kept `max_rmse` in every frame looked at though their promise is above it, and that are clearly faster
+/// than `chosen` (no_row: than nothing); fastest first. More frames decide about them.
+std::vector<std::size_t> doubtful_rows(const TradeoffTable& table, int frames_of_scene, double max_rmse,
+                                       std::size_t chosen);
 
 /// The row with the lowest promised error among those whose promised time is within `max_ms`.
 BudgetChoice most_accurate_within(const TradeoffTable& table, int frames_of_scene, double max_ms);

@@ -46,7 +46,9 @@ struct CheckedChoice {
 };
 
 /// cheapest_within, and a look at other frames. Where that finds more than `max_rmse`, what was found joins what the
-/// row is judged by (in `table`), and the choice is made again. A choice without a row: none keeps the error.
+/// row is judged by (in `table`), and the choice is made again. Likewise for faster rows that kept the error so far but
+/// promise too little to be chosen (doubtful_rows): they are looked at further before anything is chosen. A choice
+/// without a row: none keeps the error.
 CheckedChoice choose_within_error(TradeoffTable& table, int frames_of_scene, double max_rmse, ErrorsOnFrames& errors);
 
 /// most_accurate_within, and what its error is on other frames.

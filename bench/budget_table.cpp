@@ -60,7 +60,8 @@ struct Totals {
   double worst_ratio = 1;
 };
 
-/// The fastest row that kept the budget on the frames it was judged by and on the unseen ones: known only afterwards.
+/// The fastest row that kept the budget on the frames it was looked at when choosing and on the unseen ones: known only
+/// afterwards.
 const TradeoffRow* best_afterwards(const TradeoffTable& table, UnseenFrames& unseen, double max_rmse, double below_ms) {
   std::vector<const TradeoffRow*> candidates;
   for (const TradeoffRow& row : table.rows) {
@@ -86,7 +87,7 @@ void judge_budget(const std::string& scene, const TradeoffTable& measured, int f
   const CheckedChoice checked = choose_within_error(table, frames, budget, errors);
   const auto text_of = [](const TradeoffRow& row) { return fmt::format("{:.3f} ({})", row.ms.median, row.name); };
   if (checked.choice.row == no_row) {
-    const TradeoffRow* best = best_afterwards(measured, unseen, budget, std::numeric_limits<double>::infinity());
+    const TradeoffRow* best = best_afterwards(table, unseen, budget, std::numeric_limits<double>::infinity());
     ++(best ? totals.missed : totals.impossible);
     fmt::print("| {} | {:g} | none | {:.4f} at best | | | | {} | |\n", scene, budget, checked.choice.promise.rmse,
                best ? text_of(*best) : "none");
@@ -94,7 +95,7 @@ void judge_budget(const std::string& scene, const TradeoffTable& measured, int f
   }
   const TradeoffRow& row = table.rows[checked.choice.row];
   const std::vector<double> found = unseen.of(row);
-  const TradeoffRow* faster = best_afterwards(measured, unseen, budget, row.ms.median);
+  const TradeoffRow* faster = best_afterwards(table, unseen, budget, row.ms.median);
   const double ratio = faster ? row.ms.median / faster->ms.median : 1;
   ++totals.choices;
   totals.slow += ratio > 1.2;

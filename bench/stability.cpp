@@ -22,6 +22,7 @@ std::vector<StabilityCase> all_cases(std::size_t samples) {
   add(sphere_stability(samples));
   add(grid_stability(samples));
   add(image_stability(samples));
+  add(pose_stability());
   add(frame_stability());
   return all;
 }
@@ -71,7 +72,7 @@ StabilityRow judge(const StabilityCase& one, const std::vector<double>& exact, c
   row.values = shaded.visibility.size();
   row.stated_error = one.stated_error;
   row.bar = (one.extreme ? extreme_bar : normal_bar) + one.stated_error;
-  row.reason = one.note;
+  row.note = row.reason = one.note;
   for (const float v : shaded.visibility) {
     row.finite &= std::isfinite(v);
     row.in_range &= within(v);

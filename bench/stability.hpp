@@ -27,7 +27,8 @@ struct StabilityRow {
   double last_place = 0;                // of the worst value: what one unit in the last place of its inputs changes
   std::optional<double> largest_jump;   // of V over one unit in the last place across a branch, beyond its slope
   std::optional<double> largest_fall;   // of V where it must not fall
-  std::string reason;                   // of what exceeds the bar, or is stated
+  std::string note;                     // what the stated error is of
+  std::string reason;                   // of what exceeds the bar, else the note
   bool passed = true;
   std::map<std::uint32_t, std::uint64_t> validity;  // code (a single bit) -> values that carry it
   // With -cl-fast-relaxed-math: measured, nothing is required.

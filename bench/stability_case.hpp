@@ -54,6 +54,7 @@ std::vector<StabilityCase> sphere_stability(std::size_t samples);
 std::vector<StabilityCase> grid_stability(std::size_t samples);
 std::vector<StabilityCase> table_stability(std::size_t samples);
 std::vector<StabilityCase> image_stability(std::size_t samples);
+std::vector<StabilityCase> pose_stability();
 std::vector<StabilityCase> frame_stability();
 
 /// A float that double holds too.

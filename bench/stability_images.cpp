@@ -13,6 +13,8 @@
 #include "host/passes/obscurance_line.hpp"
 #include "host/passes/obscurance_point.hpp"
 #include "tests/reference/environment.hpp"
+#include "tests/reference/obscurance_area.hpp"
+#include "tests/reference/obscurance_blur.hpp"
 #include "tests/support/environments.hpp"
 #include "tests/support/made_images.hpp"
 
@@ -21,12 +23,14 @@ namespace {
 
 using reference::DepthImage;
 
+using Image = std::shared_ptr<const DepthImage>;
+
 constexpr int width = 41, height = 29;
 
 double in_radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 /// `shade` of a device's planes of the image.
-StabilityCase image_case(const std::string& kernel, const std::string& name, std::shared_ptr<const DepthImage> image,
+StabilityCase image_case(const std::string& kernel, const std::string& name, Image image,
                          const std::function<void(Device&, FragmentPlanes&, Buffer<float>&)>& pass) {
   StabilityCase one;
   one.kernel = kernel;
@@ -40,11 +44,13 @@ StabilityCase image_case(const std::string& kernel, const std::string& name, std
   return one;
 }
 
-/// One of the three ways to sample, and its double; areas have no form in double and are bounded only.
+using ExactPixel = std::function<reference::Obscurance(int x, int y)>;
+
+/// One of the three ways to sample, and its double.
 struct Sampling {
   std::string name;
   std::function<void(Device&, FragmentPlanes&, const ObscuranceView&, const NearField&, Buffer<float>&)> run;
-  reference::Obscurance (*exact)(const DepthImage&, int, int, const NearField&);
+  ExactPixel (*exact)(const Image&, const NearField&);
 };
 
 const std::vector<Sampling>& samplings() {
@@ -52,14 +58,17 @@ const std::vector<Sampling>& samplings() {
       {"obscurance-line",
        [](Device& device, FragmentPlanes& planes, const ObscuranceView& view, const NearField& near,
           Buffer<float>& out) { ObscuranceLinePass(device, near, line_samples(5)).run(planes, view, out); },
-       [](const DepthImage& image, int x, int y, const NearField& near) {
-         return reference::line_obscurance(image, x, y, line_samples(5), near, near.radius);
+       [](const Image& image, const NearField& near) -> ExactPixel {
+         return
+             [=](int x, int y) { return reference::line_obscurance(*image, x, y, line_samples(5), near, near.radius); };
        }},
       {"obscurance-point",
        [](Device& device, FragmentPlanes& planes, const ObscuranceView& view, const NearField& near,
           Buffer<float>& out) { ObscurancePointPass(device, near, point_samples(12)).run(planes, view, out); },
-       [](const DepthImage& image, int x, int y, const NearField& near) {
-         return reference::point_obscurance(image, x, y, point_samples(12), near, near.radius);
+       [](const Image& image, const NearField& near) -> ExactPixel {
+         return [=](int x, int y) {
+           return reference::point_obscurance(*image, x, y, point_samples(12), near, near.radius);
+         };
        }},
       {"obscurance-area",
        [](Device& device, FragmentPlanes& planes, const ObscuranceView& view, const NearField& near,
@@ -67,22 +76,33 @@ const std::vector<Sampling>& samplings() {
          DepthMomentsPass gather(device);
          DepthMoments moments = gather.allocate(device, view);
          gather.run(planes, view, moments);
-         ObscuranceAreaPass(device, near, line_samples(1)).run(planes, view, moments, out);
+         ObscuranceAreaPass(device, near, line_samples(5), std::sqrt(3.0)).run(planes, view, moments, out);
        },
-       nullptr}};
+       [](const Image& image, const NearField& near) -> ExactPixel {
+         const auto pyramid = std::make_shared<const reference::MomentPyramid>(*image);
+         return [=](int x, int y) {
+           return reference::area_obscurance(*image, *pyramid, x, y, line_samples(5), near, near.radius,
+                                             std::sqrt(3.0));
+         };
+       }}};
   return all;
 }
 
-std::function<double(std::size_t)> exact_of(const Sampling& sampling, std::shared_ptr<const DepthImage> image,
-                                            const NearField& near) {
-  if (!sampling.exact) return {};
-  return [=, exact = sampling.exact](std::size_t i) {
+std::function<double(std::size_t)> exact_of(const Sampling& sampling, const Image& image, const NearField& near) {
+  return [image, exact = sampling.exact(image, near)](std::size_t i) {
     if (std::isinf(image->depth[i])) return 1.0;
     const int x = static_cast<int>(i) % image->view.width, y = static_cast<int>(i) / image->view.width;
-    const reference::Obscurance o = exact(*image, x, y, near);
+    const reference::Obscurance o = exact(x, y);
     // A sample on the border between two pixels, or as deep as what is seen, may count to either side.
     return o.nearest_edge < 2e-3 || o.doubt > 0 ? std::nan("") : o.value;
   };
+}
+
+/// Both directions of the blur, the plane between them in float.
+std::function<double(std::size_t)> exact_blur(const Image& image, std::vector<double> values, int radius,
+                                              double reach) {
+  for (const bool down : {false, true}) values = reference::blurred(*image, values, radius, down, reach);
+  return [values = std::move(values)](std::size_t i) { return values[i]; };
 }
 
 void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
@@ -112,6 +132,12 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
       all.back().stated_error = 0.25;
       all.back().note = "where planes are seen edge-on, points of the set may count to either side: up to three of 12";
     }
+    if (sampling.name == "obscurance-area") {
+      all.back().stated_error = fov > 150 ? 1e-3 : 1e-6;
+      all.back().note =
+          "depths spread by the root of a difference of variances: 1e-6, and 1e-3 where rays are 85 degrees "
+          "off the axis";
+    }
     if (eight_pixels <= 5) continue;
     near.radius = eight_pixels;
     add(name + ", a ball that the camera is in", view, patchwork(7, 10, near.radius), near, false);
@@ -119,7 +145,7 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
   near.radius = 1;
   add("orthographic", odd_view(width, height, 0), patchwork(7, 10, 1), near);
   NearField all_options = near;
-  all_options.thickness = 0.5;
+  all_options.thickness = 1.5;
   all_options.normals = "none";
   add("thickness, without normals", odd_view(width, height, 0.9), patchwork(8, 12, 1), all_options);
   for (const double depth : {1e-4, 1e7}) {
@@ -133,6 +159,9 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
     scaled.radius = radius;
     add(radius < 1 ? "radius 1e-6 m, below a pixel" : "radius 1e6 m, beyond the image", odd_view(width, height, 0.9),
         patchwork(9, 10, 1), scaled);
+    if (radius > 1 || sampling.name != "obscurance-area") continue;
+    all.back().stated_error = 1;
+    all.back().note = "a radius below the rounding of depths, which are kept as 1/z; code 32 is set";
   }
   add(
       "background only", odd_view(width, height, 0.9), [](const reference::PixelRay&) { return SurfacePoint{}; }, near);
@@ -154,14 +183,18 @@ void add_blur_and_normals(std::vector<StabilityCase>& all) {
     const auto image =
         std::make_shared<const DepthImage>(image_of(odd_view(width, height, in_radians(fov)), patchwork(5, 10, span)));
     const std::string name = fov == 0 ? "orthographic" : "field of view " + std::to_string(static_cast<int>(fov));
+    const auto bright_at = [](std::size_t i) { return static_cast<float>(i % 11) / 10; };
     all.push_back(
         image_case("obscurance-blur", name, image, [=](Device& device, FragmentPlanes& planes, Buffer<float>& out) {
           std::vector<float> bright(planes.padded_fragments);
-          for (std::size_t i = 0; i < bright.size(); ++i) bright[i] = static_cast<float>(i % 11) / 10;
+          for (std::size_t i = 0; i < bright.size(); ++i) bright[i] = bright_at(i);
           out.write(bright);
           Buffer<float> scratch(device, planes.padded_fragments, "scratch");
           ObscuranceBlurPass(device).run(planes, image->view, 4, 0.3 * span, out, scratch);
         }));
+    std::vector<double> bright;
+    for (std::size_t i = 0; i < image->depth.size(); ++i) bright.push_back(double(bright_at(i)));
+    all.back().exact = exact_blur(image, bright, 4, 0.3 * span);
     // Values are half the length of each normal: 1/2, and 0 on the background.
     all.push_back(
         image_case("normals-from-depth", name, image, [=](Device& device, FragmentPlanes& planes, Buffer<float>& out) {

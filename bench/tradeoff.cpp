@@ -16,6 +16,7 @@ namespace understory {
 namespace {
 
 constexpr int half_size = 2;
+constexpr int term_sweeps = 2;    // forwards and backwards: a machine that gets slower meanwhile slows all alike
 constexpr int picture_rays = 64;  // of the truth in pictures of errors, per pixel
 constexpr std::size_t relaxed_variants = 4;
 
@@ -41,7 +42,7 @@ class Measuring {
   std::optional<TradeoffModel> model(int shrink, const std::vector<Term>& terms);
   std::vector<Term> terms_on_front(const TradeoffModel& model) const;
   void add_relaxed(std::vector<Variant>& whole) const;
-  void measure_whole(const std::vector<Variant>& variants);
+  void measure_in_turn(const std::vector<Variant>& variants, int sweeps);
   void add_front(const TradeoffModel& model, std::vector<Variant>& whole);
   std::vector<TradeoffRow> rows() const;
   void write_pictures(const std::vector<TradeoffRow>& rows);
@@ -63,11 +64,16 @@ void Measuring::done(const std::string& what) {
 }
 
 std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term>& terms) {
-  const auto term_of = [&](Axis axis, Variant variant) -> std::optional<MeasuredTerm> {
+  const auto with_size = [&](Variant variant) {
     variant.shrink = shrink;
-    if (stopped()) return std::nullopt;
+    return variant;
+  };
+  std::vector<Variant> alone{with_size(bare_variant(world_.scene))};
+  for (const Term& term : terms) alone.push_back(with_size(term.variant));
+  measure_in_turn(alone, term_sweeps);
+  if (stopped()) return std::nullopt;
+  const auto term_of = [&](Axis axis, const Variant& variant) -> std::optional<MeasuredTerm> {
     const VariantRecord& record = records_.measured(variant);
-    done(record.row.name);
     if (!record.row.verified) return std::nullopt;
     return MeasuredTerm{axis, variant, record.values, spread_of(record.samples.device_ms).median};
   };
@@ -79,12 +85,11 @@ std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term
       variance += truth_variance(view.truth.halfwidth[i], view.truth.rays[i]);
   }
   if (!truth.empty()) variance /= static_cast<double>(truth.size());
-  std::optional<MeasuredTerm> bare = term_of(Axis::tree, bare_variant(world_.scene));
+  std::optional<MeasuredTerm> bare = term_of(Axis::tree, alone.front());
   if (!bare) return std::nullopt;
   std::vector<MeasuredTerm> usable;
-  for (const Term& term : terms)
-    if (std::optional<MeasuredTerm> one = term_of(term.axis, term.variant)) usable.push_back(std::move(*one));
-  if (stopped()) return std::nullopt;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    if (std::optional<MeasuredTerm> one = term_of(terms[i].axis, alone[i + 1])) usable.push_back(std::move(*one));
   return TradeoffModel(std::move(truth), variance, std::move(*bare), std::move(usable));
 }
 
@@ -120,12 +125,12 @@ void Measuring::add_front(const TradeoffModel& model, std::vector<Variant>& whol
   if (found != all.end()) predicted_[own] = *found;
 }
 
-void Measuring::measure_whole(const std::vector<Variant>& variants) {
-  for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+/// Each so many times in all, forwards and backwards by turns.
+void Measuring::measure_in_turn(const std::vector<Variant>& variants, int sweeps) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t turn = 0; turn < variants.size() && !stopped(); ++turn) {
       const Variant& variant = variants[sweep % 2 == 0 ? turn : variants.size() - 1 - turn];
       VariantRecord& record = records_.measured(variant);
-      records_.judge_in_time(record);
       if (record.row.verified && record.sweeps <= sweep) records_.time_once_more(record);
       done(record.row.name);
     }
@@ -221,22 +226,25 @@ void Measuring::describe(TradeoffTable& table) const {
 TradeoffTable Measuring::table() {
   const std::vector<Term> terms = terms_of(world_);
   // Guesses, until each stage says what comes after it.
-  steps_ = static_cast<int>(terms.size()) + 1 + options_.combinations * (1 + 2 * options_.sweeps);
+  const int alone = term_sweeps * (static_cast<int>(terms.size()) + 1);
+  steps_ = alone + options_.combinations * (1 + 2 * options_.sweeps);
   std::vector<Variant> whole{own_variant(world_)};
   if (const std::optional<TradeoffModel> full = model(1, terms)) {
-    steps_ = static_cast<int>(terms.size()) + 1;
+    steps_ = alone;
     add_front(*full, whole);
     if (!options_.runnable_only) {
       const std::vector<Term> half_terms = terms_on_front(*full);
       if (const std::optional<TradeoffModel> half = model(half_size, half_terms)) add_front(*half, whole);
-      steps_ += static_cast<int>(half_terms.size()) + 1;
+      steps_ += term_sweeps * (static_cast<int>(half_terms.size()) + 1);
       add_relaxed(whole);
     }
   }
   const int cameras = judge_.views().empty() ? 0 : judge_.views().back().camera + 1;
   const int measured = steps_ + options_.sweeps * static_cast<int>(whole.size());
   steps_ = measured + cameras * options_.combinations;  // pictures: a guess
-  measure_whole(whole);
+  measure_in_turn(whole, options_.sweeps);
+  for (const Variant& variant : whole)
+    if (!stopped()) records_.judge_in_time(records_.measured(variant));
   TradeoffTable table;
   table.rows = rows();
   for (const TradeoffRow& row : table.rows)

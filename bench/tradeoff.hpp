@@ -113,8 +113,9 @@ struct TradeoffOptions {
 /// `world` is calibrated; its camera and image size change while it runs.
 TradeoffTable measure_tradeoff(Device& device, World& world, const TradeoffOptions& options);
 
-/// Sets `pareto` and `ties`. A row is off the front when another is clearly better in one of time and error (their
-/// intervals do not overlap) and not clearly worse in the other.
+/// Sets `pareto` and `ties`. A row is off the front when one that is on it is clearly better in one of time and error
+/// (their intervals do not overlap) and not clearly worse in the other. Rows that are off beat nobody: with wide
+/// intervals they would take with them what is clearly faster than the whole front.
 void mark_front(std::vector<TradeoffRow>& rows);
 
 /// tradeoff.json. read: throws Error(invalid_input) naming `where` for text that is no such table.

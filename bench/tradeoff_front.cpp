@@ -18,18 +18,6 @@ bool beats_by_medians(const TradeoffRow& a, const TradeoffRow& b) {
          (a.ms.median < b.ms.median || a.error.rmse < b.error.rmse);
 }
 
-template <class Beats>
-bool mark(std::vector<TradeoffRow>& rows, const Beats& is_beaten_by) {
-  bool any = false;
-  for (TradeoffRow& row : rows) {
-    row.pareto = row.verified && std::none_of(rows.begin(), rows.end(), [&](const TradeoffRow& other) {
-                   return other.verified && is_beaten_by(other, row);
-                 });
-    any = any || row.pareto;
-  }
-  return any;
-}
-
 }  // namespace
 
 void mark_front(std::vector<TradeoffRow>& rows) {
@@ -41,8 +29,25 @@ void mark_front(std::vector<TradeoffRow>& rows) {
       if (&other != &row && row.verified && other.verified && !apart) row.ties.push_back(other.name);
     }
   }
-  // Wide intervals can beat each other in a circle of four that leaves nobody; then the medians decide.
-  if (!mark(rows, beats)) mark(rows, beats_by_medians);
+  std::vector<TradeoffRow*> open;
+  for (TradeoffRow& row : rows) {
+    row.pareto = false;
+    if (row.verified) open.push_back(&row);
+  }
+  while (!open.empty()) {
+    const auto unbeaten = [&](const auto& is_beaten_by) {
+      return std::find_if(open.begin(), open.end(), [&](const TradeoffRow* row) {
+        return std::none_of(open.begin(), open.end(),
+                            [&](const TradeoffRow* other) { return is_beaten_by(*other, *row); });
+      });
+    };
+    auto next = unbeaten(beats);
+    // Wide intervals can beat each other in a circle of four that leaves nobody; then the medians decide.
+    if (next == open.end()) next = unbeaten(beats_by_medians);
+    TradeoffRow& winner = **next;
+    winner.pareto = true;
+    std::erase_if(open, [&](const TradeoffRow* row) { return row == &winner || beats(winner, *row); });
+  }
 }
 
 }  // namespace understory

@@ -49,8 +49,8 @@ std::string tie_text(const TradeoffRow& row, const std::map<std::string, int>& n
 void write_front(const TradeoffTable& table, std::string& text) {
   const auto numbers = front_numbers(table);
   text +=
-      "\n## The front\n\nNo other variant is clearly better in time or error without being clearly worse in the "
-      "other.\n\n"
+      "\n## The front\n\nEvery other variant is beaten by one of these: clearly, beyond both intervals, in time or in "
+      "error, and not clearly\nworse in the other.\n\n"
       "| | variant | ms | frame ms | RMSE | bias |";
   for (const char* name : judged_class_names) text += fmt::format(" {} |", name);
   text += " MiB | bake s | dV/dt | flicker | ties |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";

@@ -12,10 +12,11 @@
 
 namespace understory {
 
-/// Bit flags of channel `validity` (FORMULAS.md). 0: every assumption of the model held.
+/// Bit flags of channel `validity` (FORMULAS.md). 0: every assumption of the model held. Code 256, a cone beyond its
+/// table, does not exist: cones have closed forms (kernels/shared/cone.h) for every aperture and tilt.
 namespace validity {
 inline constexpr std::uint32_t background = 1, not_finite = 2, not_unit = 4, outside_model = 8, occluder_too_close = 16,
-                               radius_out_of_range = 32, left_image = 64, grid_border = 128, beyond_table = 256;
+                               radius_out_of_range = 32, left_image = 64, grid_border = 128;
 }
 
 using Plane = std::vector<float>;

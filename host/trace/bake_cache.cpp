@@ -38,12 +38,28 @@ bool usable(const fs::path& folder) {
   return !error && access(folder.c_str(), R_OK | W_OK | X_OK) == 0;
 }
 
-std::vector<fs::path> bake_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
+/// Kept results, and the folders of results that were not finished.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error, gone;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().extension() == extension) files.push_back(at->path());
-  return files;
+    if (at->path().extension() == extension || at->is_directory(gone)) entries.push_back(at->path());
+  return entries;
+}
+
+std::uintmax_t bytes_below(const fs::path& entry) {
+  std::error_code gone;
+  if (!fs::is_directory(entry, gone)) {
+    const std::uintmax_t bytes = fs::file_size(entry, gone);
+    return gone ? 0 : bytes;
+  }
+  std::uintmax_t sum = 0;
+  for (fs::recursive_directory_iterator at(entry, gone), end; !gone && at != end; at.increment(gone)) {
+    std::error_code changed;
+    const std::uintmax_t bytes = at->is_regular_file(changed) ? at->file_size(changed) : 0;
+    if (!changed) sum += bytes;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -116,23 +132,20 @@ BakeCacheInfo bake_cache_info() {
   BakeCacheInfo info;
   info.folder = bake_cache_folder();
   if (info.folder.empty()) return info;
-  for (const fs::path& file : bake_files(info.folder)) {
-    std::error_code gone;
-    const std::uintmax_t bytes = fs::file_size(file, gone);
-    if (gone) continue;
-    ++info.files;
-    info.bytes += bytes;
+  for (const fs::path& entry : entries_of(info.folder)) {
+    info.files += entry.extension() == extension;
+    info.bytes += bytes_below(entry);
   }
   return info;
 }
 
 BakeCacheInfo bake_cache_clear() {
   const BakeCacheInfo info = bake_cache_info();
-  for (const fs::path& file : info.folder.empty() ? std::vector<fs::path>() : bake_files(info.folder)) {
+  for (const fs::path& entry : info.folder.empty() ? std::vector<fs::path>() : entries_of(info.folder)) {
     std::error_code error;
-    fs::remove(file, error);
+    fs::remove_all(entry, error);
     if (error)
-      throw Error(ErrorKind::input_output, file.string() + ": cannot clear the cache of bakes: " + error.message());
+      throw Error(ErrorKind::input_output, entry.string() + ": cannot clear the cache of bakes: " + error.message());
   }
   return info;
 }

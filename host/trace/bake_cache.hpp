@@ -57,12 +57,12 @@ class FreshBakes {
 
 struct BakeCacheInfo {
   std::filesystem::path folder;
-  std::size_t files = 0;
-  std::uint64_t bytes = 0;
+  std::size_t files = 0;    // finished results
+  std::uint64_t bytes = 0;  // of them, and of what lies in folders below: work that was not finished
 };
 
 BakeCacheInfo bake_cache_info();
-/// Removes every result and returns what was there. Throws Error(input_output).
+/// Removes every result, finished or not, and returns what was there. Throws Error(input_output).
 BakeCacheInfo bake_cache_clear();
 
 }  // namespace understory

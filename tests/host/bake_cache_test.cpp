@@ -40,6 +40,18 @@ TEST_F(BakeCache, GivesBackWhatWasStored) {
   EXPECT_FALSE(load_bake("test", hash_of("a")));
 }
 
+TEST_F(BakeCache, IsClearedOfWhatWasNotFinishedToo) {
+  store_bake("test", hash_of("a"), "result");
+  const std::filesystem::path unfinished = bake_cache_folder() / "tradeoff-0123";
+  std::filesystem::create_directories(unfinished / "variants");
+  std::ofstream(unfinished / "variants" / "one.cbor") << "half";
+  EXPECT_EQ(bake_cache_info().files, 1u);
+  const std::uint64_t bytes = bake_cache_info().bytes;
+  EXPECT_EQ(bake_cache_clear().bytes, bytes);
+  EXPECT_FALSE(std::filesystem::exists(unfinished));
+  EXPECT_EQ(bake_cache_info().bytes, 0u);
+}
+
 TEST_F(BakeCache, IsNotReadWhileBakesAreToBeFresh) {
   store_bake("test", hash_of("a"), "old");
   {

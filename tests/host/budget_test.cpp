@@ -103,6 +103,19 @@ TEST(Budget, ChoosesTheFastestThatKeepsTheError) {
   EXPECT_NEAR(none.promise.rmse, 0.1, 1e-9);
 }
 
+TEST(Budget, DoubtsWhatKeptTheErrorSoFarButDoesNotPromiseIt) {
+  TradeoffRow scattered = row_of("scattered", 1, 0.2);
+  scattered.views[0].all.high = 0.24;
+  TradeoffTable table = table_of({row_of("rough", 0.5, 0.3), scattered, row_of("good", 4, 0.1)});
+  EXPECT_EQ(cheapest_within(table, many_frames, 0.25).row, 2u);
+  EXPECT_EQ(doubtful_rows(table, many_frames, 0.25, 2), std::vector<std::size_t>{1});
+  EXPECT_TRUE(doubtful_rows(table, many_frames, 0.23, 2).empty()) << "it erred more than that already";
+  EXPECT_TRUE(doubtful_rows(table, many_frames, 0.5, 1).empty()) << "promised";
+  table.rows[2].ms.median = 1.02;
+  EXPECT_TRUE(doubtful_rows(table, many_frames, 0.25, 2).empty()) << "hardly faster than the choice";
+  EXPECT_EQ(doubtful_rows(table, many_frames, 0.25, no_row), std::vector<std::size_t>{1});
+}
+
 TEST(Budget, ChoosesTheMostAccurateThatKeepsTheTime) {
   const TradeoffTable table =
       table_of({row_of("rough", 1, 0.3), row_of("fair", 2, 0.2), row_of("good", 4, 0.1), row_of("waste", 8, 0.15)});

@@ -5,6 +5,7 @@
 
 #include "host/passes/obscurance_line.hpp"
 #include "kernels/shared/obscurance.h"
+#include "tests/reference/obscurance_area.hpp"
 #include "tests/support/depth_images.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/tolerances.hpp"
@@ -77,6 +78,27 @@ TEST(ObscuranceArea, MomentsAreThoseOfPlainSums) {
         EXPECT_NEAR(mean[texel], sum / covered, 1e-6 * std::abs(sum / covered));
         EXPECT_NEAR(std::sqrt(variance[texel]), std::sqrt(square / covered), 2e-3 * std::sqrt(square / covered));
       }
+  }
+}
+
+TEST(ObscuranceArea, AgreesWithTheReference) {
+  UNDERSTORY_NEEDS_DEVICE();
+  NearField options;
+  options.radius = 3;
+  for (const double field_of_view : {0.9, 0.0}) {
+    const reference::DepthImage image = image_of(odd_view(41, 29, field_of_view), patchwork(7, 10, 3));
+    const reference::MomentPyramid pyramid(image);
+    const Shaded shaded = shade(image, 5, options);
+    int compared = 0;
+    for (std::size_t i = 0; i < shaded.visibility.size(); ++i) {
+      if (std::isinf(image.depth[i])) continue;
+      const int x = static_cast<int>(i) % 41, y = static_cast<int>(i) / 41;
+      const auto exact = reference::area_obscurance(image, pyramid, x, y, line_samples(5), options, options.radius, 1);
+      if (exact.nearest_edge < 2e-3 || exact.doubt > 0) continue;
+      ++compared;
+      EXPECT_NEAR(shaded.visibility[i], exact.value, 2e-5) << x << ", " << y;
+    }
+    EXPECT_GT(compared, 300);
   }
 }
 

@@ -95,6 +95,9 @@ class Ball {
     return seen;
   }
 
+  /// Cosine between the normal and the fragment's own ray, times that ray's length; negative.
+  double facing() const { return glm::dot(normal, pixel_ray(image_.view, x_, y_).direction); }
+
   glm::dvec3 centre{0}, sight{0}, right{0}, down{0}, normal{0};
   double pixels = 0;
 

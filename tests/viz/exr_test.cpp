@@ -29,7 +29,7 @@ TEST(FrameExr, LosesNothing) {
   Frame frame = synthetic_frame(83, 61, 0.7);
   frame.terms["sphere-cap"] = frame.terms["open-dome"];
   frame.terms["sphere-cap"][7] = -0.0f;
-  frame.validity[5] |= validity::occluder_too_close | validity::beyond_table;
+  frame.validity[5] |= validity::occluder_too_close | validity::grid_border;
   ExrAttributes attributes;
   attributes.seed = 0xFFFF'FFFF'FFFF'FFF5u;
   write_frame_exr(folder / "frame.exr", frame, attributes);

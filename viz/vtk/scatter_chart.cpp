@@ -155,10 +155,15 @@ Drawing drawing_of(const ScatterChart& chart) {
       draw_point(point, axes, drawing);
   }
   std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  for (std::size_t i = 1; chart.joined && i < front.size(); ++i) {
-    const glm::dvec2 from = axes.at(front[i - 1]), to = axes.at(front[i]), corner(to.x, from.y);
-    drawing.lines.push_back({from, corner, 1, marked});
-    drawing.lines.push_back({corner, to, 1, marked});
+  const ChartPoint* last = nullptr;
+  for (const ChartPoint& point : front) {
+    if (!chart.joined || (last && point.y >= last->y)) continue;  // as good as the last within intervals: no step
+    if (last) {
+      const glm::dvec2 from = axes.at(*last), to = axes.at(point), corner(to.x, from.y);
+      drawing.lines.push_back({from, corner, 1, marked});
+      drawing.lines.push_back({corner, to, 1, marked});
+    }
+    last = &point;
   }
   for (const ChartPoint& point : front) draw_point(point, axes, drawing);
   draw_numbers(front, axes, drawing);

@@ -13,7 +13,7 @@ namespace understory {
 struct ChartPoint {
   double x = 1, x_low = 1, x_high = 1;  // above 0
   double y = 0, y_low = 0, y_high = 0;  // at least 0
-  bool marked = false;                  // numbered in order of x, joined by a staircase, named below the chart
+  bool marked = false;                  // numbered in order of x, named below the chart
   std::string label;
 };
 
@@ -27,7 +27,7 @@ struct ScatterChart {
   std::string title, x_title, y_title;
   std::vector<ChartPoint> points;
   std::vector<ChartLine> lines = {};
-  bool joined = true;          // marked points, by a staircase
+  bool joined = true;          // marked points, each lower than all before it, by a staircase
   bool y_logarithmic = false;  // all y above 0
 };
 
