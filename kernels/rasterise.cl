@@ -3,11 +3,11 @@
 // One work-group per chunk; one work-item projects and culls W triangles in vector lanes, then draws those that are
 // left.
 #pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/few_centres.h"
 #include "kernels/shared/lane_bits.h"
 #include "kernels/shared/project_triangles.h"
 #include "kernels/shared/scan_blocks.h"
 #include "kernels/shared/scan_convert.h"
-#include "kernels/shared/single_centre.h"
 #include "kernels/shared/triangle_corners.h"
 
 // One corner of W triangles as the scalar loop reads it.
@@ -30,19 +30,37 @@ static inline ScreenCorner lane_corner(const CornerLanes* lanes, int lane) {
   return corner;
 }
 
-// `counts`: lanes to draw. `first`: id of lane 0.
-static inline void draw_single_centres(const CameraView* camera, SingleCentre one, uint first,
-                                       global VisibleTriangle* pixels) {
-  uint left = lane_bits(one.covered);
-  if (left == 0) return;
+// `first`: id of lane 0.
+static inline void draw_few_centres(const CameraView* camera, FewCentres few, uint first,
+                                    global VisibleTriangle* pixels) {
   const size_t pixel_count = (size_t)camera->width * camera->height;
   int pixel[W];
   float depth[W];
-  STORE(one.pixel, pixel, 0);
-  STORE(one.depth, depth, 0);
-  while (left != 0) {
-    const uint lane = next_lane(&left);
-    offer_fragment(pixels, pixel_count, pixel[lane], depth[lane], first + lane);
+  STORE(few.pixel, pixel, 0);
+  for (int row = 0; row < FEW_ROWS; ++row) {
+    const truth in_row = row < few.rows;
+    if (lane_bits(in_row & (few.columns > 0)) == 0) return;
+    whole a = few.a.at_first, b = few.b.at_first, c = few.c.at_first;
+    for (int column = 0; column < FEW_COLUMNS; ++column) {
+      const truth in_box = in_row & (column < few.columns);
+      if (lane_bits(in_box) == 0) break;
+      uint left = lane_bits(in_box & ((a | b | c) >= 0));
+      if (left != 0) {
+        const real wb = TO_REAL(b) * few.share, wc = TO_REAL(c) * few.share;
+        STORE(REAL(1.0) / fma(wb, few.to_b, fma(wc, few.to_c, few.inverse_z)), depth, 0);
+        const int offset = row * camera->width + column;
+        while (left != 0) {
+          const uint lane = next_lane(&left);
+          offer_fragment(pixels, pixel_count, pixel[lane] + offset, depth[lane], first + lane);
+        }
+      }
+      a += few.a.right;
+      b += few.b.right;
+      c += few.c.right;
+    }
+    few.a.at_first += few.a.down;
+    few.b.at_first += few.b.down;
+    few.c.at_first += few.c.down;
   }
 }
 
@@ -80,9 +98,9 @@ static inline truth draw_unclipped(const CameraView* camera, ProjectedCorners a,
                                    whole covers, uint first, global VisibleTriangle* pixels) {
   const truth unclipped = covers == 1;
   if (ANY(unclipped)) {
-    const SingleCentre one = single_centre(camera, a, b, c, unclipped);
-    draw_single_centres(camera, one, first, pixels);
-    draw_lanes(camera, a, b, c, unclipped & NOT(one.single), first, pixels);
+    const FewCentres few = few_centres(camera, a, b, c, unclipped);
+    draw_few_centres(camera, few, first, pixels);
+    draw_lanes(camera, a, b, c, unclipped & NOT(few.few), first, pixels);
   }
   return covers == 2;
 }

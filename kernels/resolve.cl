@@ -7,6 +7,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/camera.h"
 #include "kernels/shared/crown_baked.h"
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/real.h"
 #include "kernels/shared/rest_point.h"
 #include "kernels/shared/triangle_corners.h"
@@ -48,11 +49,24 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
   for (uint k = 0; k < W; ++k)
     triangles[k] = begin + k < count ? visible_triangle(pixels, count, begin + k) : NO_TRIANGLE;
   for (uint k = 0; k < W; ++k) {
+    if (triangles[k] / CHUNK >= mesh_chunks) continue;
+    const uint t = chunks[triangles[k] / CHUNK].first_index + triangles[k] % CHUNK;
+    fetch_ahead(index_a + t);
+    fetch_ahead(index_b + t);
+    fetch_ahead(index_c + t);
+  }
+  for (uint k = 0; k < W; ++k) {
     if (triangles[k] == NO_TRIANGLE) continue;
     global const TriangleChunk* chunk = chunks + triangles[k] / CHUNK;
     corners_of[k] = triangles[k] / CHUNK < mesh_chunks
                         ? mesh_corners(chunk, triangles[k] % CHUNK, index_a, index_b, index_c)
                         : grass_corners(chunk, triangles[k] % CHUNK);
+    fetch_ahead(posed + corners_of[k].a);
+    fetch_ahead(posed + corners_of[k].b);
+    fetch_ahead(posed + corners_of[k].c);
+  }
+  for (uint k = 0; k < W; ++k) {
+    if (triangles[k] == NO_TRIANGLE) continue;
     first_corner[k] = posed[corners_of[k].a];
     second_corner[k] = posed[corners_of[k].b];
     third_corner[k] = posed[corners_of[k].c];

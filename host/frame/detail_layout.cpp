@@ -13,7 +13,8 @@
 namespace understory {
 namespace {
 
-constexpr std::uint32_t unit_vertices = unit_blocks * vertex_block;
+constexpr std::uint32_t leaf_blocks = 2, unit_vertices = leaf_blocks * vertex_block;  // of whole leaves
+constexpr std::size_t most_of_a_leaf = 4;   // triangles: one of more would be too unlike its leaf
 constexpr double widest_twig = 0.03;        // m at scale 1: thicker wood keeps its shape
 constexpr std::size_t least_triangles = 9;  // a cone has three
 
@@ -38,8 +39,9 @@ glm::vec3 middle_of(const std::vector<glm::vec3>& positions, const std::vector<s
 /// One prototype on its way into the layout.
 class PrototypeLayout {
  public:
-  PrototypeLayout(const Prototype& prototype, const std::uint32_t* run_starts, DetailLayout& layout)
-      : prototype_(prototype),
+  PrototypeLayout(const Prototype& prototype, const std::uint32_t* run_starts, bool thinned, DetailLayout& layout)
+      : thinned_(thinned),
+        prototype_(prototype),
         run_starts_(run_starts),
         layout_(layout),
         sections_(layout.sections.emplace_back()),
@@ -92,26 +94,80 @@ class PrototypeLayout {
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     for (std::size_t i = 0; i < leaves.size(); ++i) order.emplace_back(mix_bits(leaves[i].triangles.front()), i);
     std::sort(order.begin(), order.end());
+    std::vector<const Piece*> ordered;
+    for (const auto& [key, i] : order) ordered.push_back(&leaves[i]);
     if (!leaves.empty()) {
-      DetailSection section = begin_section(run, limb);
-      double area = 0;
-      for (const auto& [key, i] : order) {
-        const Piece& leaf = leaves[i];
-        if (layout_.a.size() % unit_triangles + leaf.triangles.size() > unit_triangles ||
-            unit_vertices_used(section) + leaf.vertices.size() > unit_vertices)
-          fill_unit(section);
-        const glm::vec3 middle = middle_of(positions_, leaf.vertices);
-        add_piece(section, leaf, &middle);
-        for (const std::uint32_t t : leaf.triangles) area += area_of(t);
-        for (const std::uint32_t v : leaf.vertices)
-          section.piece_radius = std::max(section.piece_radius, glm::distance(positions_[v], middle));
-        if (layout_.a.size() % unit_triangles == 0) fill_unit(section);
+      const std::size_t whole = add_whole_leaves(run, limb, ordered);
+      const bool simple = std::all_of(leaves.begin(), leaves.end(),
+                                      [](const Piece& leaf) { return leaf.triangles.size() <= most_of_a_leaf; });
+      if (thinned_ && simple) {
+        sections_[whole].coarse = static_cast<std::int32_t>(sections_.size());
+        add_single_triangles(run, limb, ordered, sections_[whole].size);
       }
-      fill_unit(section);
-      section.size = static_cast<float>(std::sqrt(area / static_cast<double>(leaves.size())));
-      end_section(section);
     }
     if (!others.empty()) add_section(run, limb, others);
+  }
+
+  /// The number of its section.
+  std::size_t add_whole_leaves(std::uint32_t run, std::uint32_t limb, const std::vector<const Piece*>& leaves) {
+    DetailSection section = begin_section(run, limb);
+    section.unit_blocks = leaf_blocks;
+    double area = 0;
+    for (const Piece* leaf : leaves) {
+      if (layout_.a.size() % unit_triangles + leaf->triangles.size() > unit_triangles ||
+          unit_vertices_used(section) + leaf->vertices.size() > unit_vertices)
+        fill_unit(section);
+      const glm::vec3 middle = middle_of(positions_, leaf->vertices);
+      add_piece(section, *leaf, &middle);
+      area += area_of(*leaf);
+      for (const std::uint32_t v : leaf->vertices)
+        section.piece_radius = std::max(section.piece_radius, glm::distance(positions_[v], middle));
+      if (layout_.a.size() % unit_triangles == 0) fill_unit(section);
+    }
+    fill_unit(section);
+    section.size = static_cast<float>(std::sqrt(area / static_cast<double>(leaves.size())));
+    end_section(section);
+    return sections_.size() - 1;
+  }
+
+  /// One triangle for each leaf, with the area of the whole leaf: a quarter of the vertices and half of the triangles
+  /// are saved. Large triangles of a leaf are taken more often, so that as much area faces every way as before.
+  void add_single_triangles(std::uint32_t run, std::uint32_t limb, const std::vector<const Piece*>& leaves,
+                            float leaf_size) {
+    DetailSection section = begin_section(run, limb);
+    section.is_coarse = true;
+    section.unit_blocks = 3;  // vertex k of triangle l at 16 k + l
+    section.size = leaf_size;
+    for (std::size_t first = 0; first < leaves.size(); first += unit_triangles) {
+      const std::uint32_t vertex = next_vertex(section);
+      std::vector<std::uint32_t> chosen;
+      for (std::size_t l = 0; l < unit_triangles; ++l)
+        if (first + l < leaves.size()) chosen.push_back(triangle_by_area(*leaves[first + l]));
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < unit_triangles; ++l) {
+          const std::size_t leaf = std::min(l, chosen.size() - 1);
+          const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{chosen[leaf]}];
+          const glm::vec3 middle = (positions_[corner[0]] + positions_[corner[1]] + positions_[corner[2]]) / 3.0f;
+          const double growth = std::sqrt(area_of(*leaves[first + leaf]) / area_of(chosen[leaf]));
+          const glm::vec3 place = middle + static_cast<float>(growth) * (positions_[corner[k]] - middle);
+          add_vertex(corner[k], place, middle);
+          section.piece_radius = std::max(section.piece_radius, glm::distance(place, middle));
+        }
+      for (std::uint32_t l = 0; l < unit_triangles; ++l) {
+        const bool there = l < chosen.size();
+        add_triangle(vertex + l, vertex + (there ? unit_triangles : 0) + l,
+                     vertex + (there ? 2 * unit_triangles : 0) + l, there ? source_of(run, chosen[l]) : no_source);
+      }
+    }
+    end_section(section);
+  }
+
+  /// Drawn by chance, with the share that each has of the leaf's area.
+  std::uint32_t triangle_by_area(const Piece& leaf) const {
+    double left = static_cast<double>(mix_bits(~std::uint64_t{leaf.triangles.front()}) >> 11) * 0x1p-53 * area_of(leaf);
+    for (const std::uint32_t t : leaf.triangles)
+      if ((left -= area_of(t)) < 0) return t;
+    return leaf.triangles.back();
   }
 
   void add_wood(std::uint32_t run, std::uint32_t limb, std::vector<Piece>& pieces) {
@@ -141,6 +197,7 @@ class PrototypeLayout {
     if (!boughs.empty()) add_section(run, limb, boughs);
     if (twigs.empty()) return;
     add_section(run, limb, twigs);
+    if (!thinned_) return;
     const std::size_t full = sections_.size() - 1;
     sections_[full].size = static_cast<float>(diameters / static_cast<double>(twigs.size()));
     sections_[full].coarse = static_cast<std::int32_t>(sections_.size());
@@ -173,7 +230,7 @@ class PrototypeLayout {
     section.is_coarse = true;
     for (const Piece& cone : cones) {
       const std::uint32_t first = next_vertex(section);
-      for (const std::uint32_t v : cone.vertices) add_vertex(v, positions_[v]);
+      for (const std::uint32_t v : cone.vertices) add_vertex(v, positions_[v], positions_[v]);
       for (std::uint32_t k = 0; k < 3; ++k)
         add_triangle(first + k, first + (k + 1) % 3, first + 3, source_of(run, cone.triangles.front()));
     }
@@ -219,7 +276,8 @@ class PrototypeLayout {
     const std::uint32_t first = next_vertex(section);
     for (std::uint32_t i = 0; i < piece.vertices.size(); ++i) {
       new_index_[piece.vertices[i]] = first + i;
-      add_vertex(piece.vertices[i], pivot ? *pivot : positions_[piece.vertices[i]]);
+      const glm::vec3 place = positions_[piece.vertices[i]];
+      add_vertex(piece.vertices[i], place, pivot ? *pivot : place);
     }
     for (const std::uint32_t t : piece.triangles) {
       const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{t}];
@@ -241,12 +299,19 @@ class PrototypeLayout {
     return 0.5 * glm::length(glm::cross(b - a, c - a));
   }
 
-  void add_vertex(std::uint32_t vertex, glm::vec3 pivot) {
+  double area_of(const Piece& piece) const {
+    double area = 0;
+    for (const std::uint32_t t : piece.triangles) area += area_of(t);
+    return area;
+  }
+
+  /// A vertex that flutters as `vertex` of the prototype, at `place`.
+  void add_vertex(std::uint32_t vertex, glm::vec3 place, glm::vec3 pivot) {
     const VertexBlocks& from = prototype_.vertices;
     VertexBlocks& to = layout_.vertices;
-    to.x.push_back(from.x[vertex]);
-    to.y.push_back(from.y[vertex]);
-    to.z.push_back(from.z[vertex]);
+    to.x.push_back(place.x);
+    to.y.push_back(place.y);
+    to.z.push_back(place.z);
     to.flutter_x.push_back(from.flutter_x[vertex]);
     to.flutter_y.push_back(from.flutter_y[vertex]);
     to.flutter_z.push_back(from.flutter_z[vertex]);
@@ -267,15 +332,18 @@ class PrototypeLayout {
   /// The unit's remaining triangles get no area, its remaining vertices repeat the last one.
   void fill_unit(const DetailSection& section) {
     fill_up(section);
-    while (unit_vertices_used(section) != 0) add_vertex(last_vertex_, positions_[last_vertex_]);
+    while (unit_vertices_used(section) != 0)
+      add_vertex(last_vertex_, positions_[last_vertex_], positions_[last_vertex_]);
   }
 
   void fill_up(const DetailSection& section) {
     const std::uint32_t corner = next_vertex(section) - 1;
     while (layout_.a.size() % unit_triangles != 0) add_triangle(corner, corner, corner, no_source);
-    while (layout_.vertices.x.size() % vertex_block != 0) add_vertex(last_vertex_, positions_[last_vertex_]);
+    while (layout_.vertices.x.size() % vertex_block != 0)
+      add_vertex(last_vertex_, positions_[last_vertex_], positions_[last_vertex_]);
   }
 
+  bool thinned_;
   const Prototype& prototype_;
   const std::uint32_t* run_starts_;
   DetailLayout& layout_;
@@ -287,13 +355,13 @@ class PrototypeLayout {
 
 }  // namespace
 
-DetailLayout lay_out_detail(const World& world) {
+DetailLayout lay_out_detail(const World& world, bool thinned) {
   DetailLayout layout;
   const std::vector<std::uint32_t> run_starts = first_triangles(world);
   std::size_t first_run = 0;
   layout.sections.reserve(world.prototypes.size());
   for (const Prototype& prototype : world.prototypes) {
-    PrototypeLayout(prototype, run_starts.data() + first_run, layout).add_runs();
+    PrototypeLayout(prototype, run_starts.data() + first_run, thinned, layout).add_runs();
     first_run += prototype.runs.size();
   }
   return layout;

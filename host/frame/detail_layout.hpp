@@ -1,5 +1,6 @@
 // Prototypes in an order that lets a frame draw less of them: limb by limb, the leaves of a limb in a fixed random
-// order and in units that can be left out, thin twigs beside the cones that stand for them far away.
+// order and in units that can be left out, beside the single triangles that stand for them far away, as cones do for
+// thin twigs.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -9,8 +10,8 @@
 
 namespace understory {
 
-/// Triangles and blocks of 16 vertices that are drawn or left out together: 8 leaves of 4 vertices.
-inline constexpr std::uint32_t unit_triangles = 16, unit_blocks = 2;
+/// Triangles that are drawn or left out together: 8 leaves of two, or 16 leaves of which one triangle stands for all.
+inline constexpr std::uint32_t unit_triangles = 16;
 
 /// Triangles of one limb and one run of a prototype. Starts and numbers of triangles are multiples of unit_triangles,
 /// filled up by triangles without area.
@@ -20,11 +21,12 @@ struct DetailSection {
   std::uint32_t first_triangle = 0, triangles = 0;  // corners count from the section's first vertex
   glm::vec3 centre{0};                              // of its bounding sphere at rest, flutter included, m
   float radius = 0;
-  float piece_radius = 0;    // thinned sections: largest distance of a vertex from the middle of its leaf, m
-  float size = 0;            // leaves: root of their mean area; twigs: mean diameter, m; 0: always drawn whole
-  std::int32_t coarse = -1;  // twigs: the section of cones that stands for them, in the prototype's list
-  bool is_coarse = false;    // drawn only in place of another
-  bool thins() const { return size > 0 && coarse < 0 && !is_coarse; }
+  std::uint32_t unit_blocks = 0;  // leaves: blocks of 16 vertices of a unit; 0: always drawn whole
+  float piece_radius = 0;         // leaves: largest distance of a vertex from the middle of its leaf, m
+  float size = 0;                 // leaves: root of their mean area; twigs: mean diameter, m; 0: has no `coarse`
+  std::int32_t coarse = -1;       // the section that stands for this one far away, in the prototype's list
+  bool is_coarse = false;         // drawn only in place of another
+  bool thins() const { return unit_blocks > 0; }
 };
 
 /// All prototypes, one after another. Planes have one element per vertex, 16 per block.
@@ -37,6 +39,7 @@ struct DetailLayout {
 };
 inline constexpr std::uint32_t no_source = 0xffffffffu;
 
-DetailLayout lay_out_detail(const World& world);
+/// `thinned`: with what stands for leaves and twigs far away.
+DetailLayout lay_out_detail(const World& world, bool thinned);
 
 }  // namespace understory

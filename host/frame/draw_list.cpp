@@ -150,20 +150,22 @@ void DrawLister::list_instance(std::size_t i, Part& part) const {
   std::vector<float> areas;
   for (const DetailSection& candidate : sections) {
     if (candidate.is_coarse) continue;
-    const glm::vec4 sphere = posed_sphere(part.limbs[candidate.limb], candidate, instance.scale);
+    const LimbPose& limb = part.limbs[candidate.limb];
+    const glm::vec4 sphere = posed_sphere(limb, candidate, instance.scale);
     const glm::dvec3 centre(sphere);
     const double distance = std::max(glm::length(centre), double(camera_.near_plane));
     const double pixels = double(candidate.size) * instance.scale * double(camera_.focal) / distance;
     const DetailSection* section = &candidate;
     double grown = 0;  // how far enlarged leaves reach out of the sphere
     areas.clear();
-    if (thinned_ && candidate.thins()) {
+    if (thinned_ && candidate.coarse >= 0 && pixels < (candidate.thins() ? leaf_pixels : twig_pixels))
+      section = &sections[static_cast<std::size_t>(candidate.coarse)];
+    if (thinned_ && section->thins()) {
       thin(section->triangles / unit_triangles, pixels * pixels / (leaf_pixels * leaf_pixels), areas);
       grown = (std::sqrt(double(areas.front())) - 1) * double(section->piece_radius) * instance.scale;
-    } else if (thinned_ && candidate.coarse >= 0 && pixels < twig_pixels) {
-      section = &sections[static_cast<std::size_t>(candidate.coarse)];
     }
-    if (in_view(camera_, centre, double(sphere.w) + grown)) list_section(*section, instance, areas, part);
+    const glm::vec4 drawn = section == &candidate ? sphere : posed_sphere(limb, *section, instance.scale);
+    if (in_view(camera_, glm::dvec3(drawn), double(drawn.w) + grown)) list_section(*section, instance, areas, part);
   }
 }
 
@@ -171,12 +173,12 @@ void DrawLister::list_section(const DetailSection& section, const Instance& inst
                               Part& part) const {
   const auto first_vertex = static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
   const auto units = static_cast<std::uint32_t>(areas.size());
-  const std::uint32_t blocks = areas.empty() ? section.blocks : units * unit_blocks;
+  const std::uint32_t blocks = areas.empty() ? section.blocks : units * section.unit_blocks;
   const std::uint32_t triangles = areas.empty() ? section.triangles : units * unit_triangles;
   for (std::uint32_t block = 0; block < blocks; ++block)
     part.blocks.push_back({section.first_block + block, section.limb});
   for (std::uint32_t block = 0; thinned_ && block < blocks; ++block)
-    part.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / unit_blocks]));
+    part.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / section.unit_blocks]));
   for (std::uint32_t done = 0; done < triangles; done += triangles_per_chunk)
     part.chunks.push_back({first_vertex, section.first_triangle + done, std::min(triangles_per_chunk, triangles - done),
                            instance.run_owner[section.run]});

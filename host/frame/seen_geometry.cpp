@@ -28,7 +28,7 @@ std::uint32_t vertices_that_fit(const Device& device) {
 SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned, std::uint32_t most_vertices)
     : device_(device),
       thinned_(thinned),
-      layout_(lay_out_detail(world)),
+      layout_(lay_out_detail(world, thinned)),
       blades_(lay_out_blades(world)),
       lister_(world, layout_, blades_, thinned, std::min(most_vertices, vertices_that_fit(device))) {
   upload(layout_, world);

@@ -36,7 +36,7 @@ Corners corners_of(const VertexBlocks& v, const std::array<std::size_t, 3>& inde
 
 TEST(DetailLayout, HoldsEveryTriangleOfEveryPrototypeOnce) {
   const World world = windy_meadow();
-  const DetailLayout layout = lay_out_detail(world);
+  const DetailLayout layout = lay_out_detail(world, true);
   ASSERT_EQ(layout.sections.size(), world.prototypes.size());
   std::size_t thinned = 0, twigs = 0;
   for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
@@ -71,13 +71,13 @@ TEST(DetailLayout, HoldsEveryTriangleOfEveryPrototypeOnce) {
 
 TEST(DetailLayout, AUnitNeedsNoVertexOfALaterOne) {
   const World world = windy_meadow();
-  const DetailLayout layout = lay_out_detail(world);
+  const DetailLayout layout = lay_out_detail(world, true);
   for (const std::vector<DetailSection>& sections : layout.sections)
     for (const DetailSection& section : sections) {
       if (!section.thins()) continue;
-      ASSERT_EQ(section.blocks, section.triangles / unit_triangles * unit_blocks);
+      ASSERT_EQ(section.blocks, section.triangles / unit_triangles * section.unit_blocks);
       for (std::uint32_t t = 0; t < section.triangles; ++t) {
-        const std::uint32_t end = (t / unit_triangles + 1) * unit_blocks * vertex_block,
+        const std::uint32_t end = (t / unit_triangles + 1) * section.unit_blocks * vertex_block,
                             at = section.first_triangle + t;
         ASSERT_LT(std::max({layout.a[at], layout.b[at], layout.c[at]}), end);
       }
@@ -86,7 +86,7 @@ TEST(DetailLayout, AUnitNeedsNoVertexOfALaterOne) {
 
 TEST(DrawList, SpheresHoldTheirSectionsInAStorm) {
   const World world = windy_meadow();
-  const DetailLayout layout = lay_out_detail(world);
+  const DetailLayout layout = lay_out_detail(world, true);
   for (double time : {0.0, 2.3, 7.1}) {
     const Pose pose = pose_at(world, time, world.scene.camera.position);
     for (std::size_t i = 0; i < world.instances.size(); ++i)
@@ -140,7 +140,7 @@ TEST(DrawList, NoSphereThatReachesTheImageIsOutOfView) {
 
 TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
   const World world = windy_meadow();
-  const DetailLayout layout = lay_out_detail(world);
+  const DetailLayout layout = lay_out_detail(world, true);
   const BladeLayout blades = lay_out_blades(world);
   const Pose pose = pose_without_plants(world, 1, world.scene.camera.position);
   const CameraView view = camera_view(world.scene.camera, world.scene.image, glm::dvec2(0));
@@ -170,7 +170,7 @@ TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
 
 TEST(DrawList, BatchesHoldTogetherWhatOneListHolds) {
   const World world = windy_meadow();
-  const DetailLayout layout = lay_out_detail(world);
+  const DetailLayout layout = lay_out_detail(world, true);
   const BladeLayout blades = lay_out_blades(world);
   const Pose pose = pose_without_plants(world, 1, world.scene.camera.position);
   const CameraView view = camera_view(world.scene.camera, world.scene.image, glm::dvec2(0));
