@@ -11,6 +11,7 @@
 #include "bench/tradeoff_judge.hpp"
 #include "bench/tradeoff_model.hpp"
 #include "bench/tradeoff_records.hpp"
+#include "bench/tradeoff_times.hpp"
 
 namespace understory {
 namespace {
@@ -72,10 +73,11 @@ std::optional<TradeoffModel> Measuring::model(int shrink, const std::vector<Term
   for (const Term& term : terms) alone.push_back(with_size(term.variant));
   measure_in_turn(alone, term_sweeps);
   if (stopped()) return std::nullopt;
+  const SharedResolve times(world_, records_.all());
   const auto term_of = [&](Axis axis, const Variant& variant) -> std::optional<MeasuredTerm> {
     const VariantRecord& record = records_.measured(variant);
     if (!record.row.verified) return std::nullopt;
-    return MeasuredTerm{axis, variant, record.values, spread_of(record.samples.device_ms).median};
+    return MeasuredTerm{axis, variant, record.values, spread_of(times.device_ms(record)).median};
   };
   std::vector<float> truth;
   double variance = 0;
@@ -154,14 +156,15 @@ std::vector<TradeoffRow> Measuring::rows() const {
   std::map<int, std::vector<double>> drawing;
   for (const auto& [name, record] : records_.all())
     if (record.row.verified) drawing[record.row.variant.shrink].push_back(record.samples.draw_ms);
+  const SharedResolve times(world_, records_.all());
   std::vector<TradeoffRow> rows;
   for (const auto& [name, record] : records_.all()) {
     TradeoffRow row = record.row;
     if (row.verified) {
-      row.ms = spread_of(record.samples.device_ms);
+      row.ms = spread_of(times.device_ms(record));
       row.wall_ms = spread_of(record.samples.wall_ms);
       for (const auto& [pass, milliseconds] : record.samples.pass_ms)
-        row.pass_ms[pass] = spread_of(milliseconds).median;
+        row.pass_ms[pass] = pass == "resolve" ? times.resolve_ms(row.variant) : spread_of(milliseconds);
       row.frame_ms = row.ms.median + spread_of(drawing[row.variant.shrink]).median;
     }
     if (const auto found = predicted_.find(name); found != predicted_.end()) {

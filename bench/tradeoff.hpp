@@ -58,14 +58,15 @@ struct TradeoffRow {
   bool verified = false;  // finite, in [0, 1], twice the same bytes; otherwise nothing below counts
   std::string failure;    // why not
   /// Device time of a frame's resolve and all visibility passes after it: mean over the views, median and interval over
-  /// rounds. What comes before (posing, drawing) does not depend on the methods.
+  /// rounds; the resolve's share is shared with all variants that resolve alike (bench/tradeoff_times.hpp). What comes
+  /// before (posing, drawing) does not depend on the methods.
   Spread95 ms;
-  Spread95 wall_ms;                       // the same passes on the host's clock
-  double frame_ms = 0;                    // ms + drawing: device time of a whole frame
-  std::map<std::string, double> pass_ms;  // device time by pass, of those in `ms`
-  double start_s = 0;                     // building programs and uploading tables; a bake not included
-  double bake_s = -1;                     // to bake what the methods need, from nothing; -1: not measured
-  double mib = 0;                         // device buffers while it runs
+  Spread95 wall_ms;                         // the same passes on the host's clock
+  double frame_ms = 0;                      // ms + drawing: device time of a whole frame
+  std::map<std::string, Spread95> pass_ms;  // device time by pass, of those in `ms`
+  double start_s = 0;                       // building programs and uploading tables; a bake not included
+  double bake_s = -1;                       // to bake what the methods need, from nothing; -1: not measured
+  double mib = 0;                           // device buffers while it runs
   RmseInterval error;
   std::map<std::string, RmseInterval> classes;  // tree, grass, ground, occluder
   std::vector<ViewError> views;

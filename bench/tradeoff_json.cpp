@@ -101,7 +101,11 @@ Json row_json(const TradeoffRow& row) {
   json["ties"] = row.ties;
   json["wall_ms"] = spread_json(row.wall_ms);
   json["frame_ms"] = row.frame_ms;
-  json["pass_ms"] = row.pass_ms;
+  json["pass_ms"] = json["pass_interval_ms"] = Json::object();
+  for (const auto& [pass, ms] : row.pass_ms) {
+    json["pass_ms"][pass] = ms.median;
+    json["pass_interval_ms"][pass] = {ms.low, ms.high};
+  }
   json["start_s"] = row.start_s;
   json["bake_s"] = row.bake_s < 0 ? Json(nullptr) : Json(row.bake_s);
   json["classes"] = classes_json(row.classes);
@@ -132,7 +136,10 @@ TradeoffRow row_from_json(const Json& json) {
   json.at("ties").get_to(row.ties);
   row.wall_ms = spread_from_json(json.at("wall_ms"));
   json.at("frame_ms").get_to(row.frame_ms);
-  json.at("pass_ms").get_to(row.pass_ms);
+  for (const auto& [pass, median] : json.at("pass_ms").items()) {
+    const Json& interval = json.at("pass_interval_ms").at(pass);
+    row.pass_ms[pass] = {median.get<double>(), interval.at(0).get<double>(), interval.at(1).get<double>()};
+  }
   json.at("start_s").get_to(row.start_s);
   row.bake_s = optional_number(json, "bake_s").value_or(-1);
   row.classes = classes_from_json(json.at("classes"));

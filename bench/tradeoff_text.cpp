@@ -64,11 +64,11 @@ void write_front(const TradeoffTable& table, std::string& text) {
     text += row.temporal ? fmt::format(" {:.2f} | {:.2f} |", row.temporal->rmse_dvdt, row.temporal->flicker) : " | |";
     text += fmt::format(" {} |\n", tie_text(row, numbers));
   }
-  text += "\nTo use one, give `understory run` its settings:\n\n";
+  text += "\nTo use one, give `understory run` its settings (relaxed maths is measured only):\n\n";
   for (const TradeoffRow& row : table.rows)
     if (row.pareto && !row.variant.relaxed_maths)
       text += fmt::format("{}. `--set {}`\n", numbers.at(row.name), joined(row.settings, " --set "));
-  text += "\nErrors in pictures (truth, variant, difference): `errors/`.\n";
+  text += "\nErrors in pictures (truth, variant, difference): `errors/` beside the table.\n";
 }
 
 void write_prediction(const TradeoffTable& table, std::string& text) {
@@ -85,12 +85,15 @@ void write_prediction(const TradeoffTable& table, std::string& text) {
 
 void write_passes(const TradeoffTable& table, std::string& text) {
   text +=
-      "\n## Passes\n\nDevice time of each pass, ms, median; `wall`: all of them on the host's clock.\n\n"
+      "\n## Passes\n\nDevice time of each pass, ms, median and 95 % interval; `wall`: all of them on the host's "
+      "clock.\n\n"
       "| variant | wall | passes |\n|---|---|---|\n";
   for (const TradeoffRow& row : table.rows) {
     if (!row.pareto) continue;
     std::vector<std::string> passes;
-    for (const auto& [name, milliseconds] : row.pass_ms) passes.push_back(fmt::format("{} {:.2f}", name, milliseconds));
+    for (const auto& [name, milliseconds] : row.pass_ms)
+      passes.push_back(
+          fmt::format("{} {:.2f} ({:.2f} to {:.2f})", name, milliseconds.median, milliseconds.low, milliseconds.high));
     text += fmt::format("| {} | {:.2f} ({:.2f} to {:.2f}) | {} |\n", row.name, row.wall_ms.median, row.wall_ms.low,
                         row.wall_ms.high, joined(passes, ", "));
   }
@@ -146,11 +149,12 @@ std::string tradeoff_markdown(const TradeoffTable& table) {
       "seen "
       "by {} cameras, the scene's and\nthe one opposite, against traced truth of {} rays a pixel, whose noise of "
       "{:.4f} "
-      "is taken out. `ms`: device time of a frame's\nresolve and all passes after it, median and 95 % interval; posing "
-      "and drawing take {} more whatever the methods.\nRMSE, bias: of V, with 95 % intervals from the scatter of the "
-      "pixels. dV/dt: RMSE of the change of V, 1/s; flicker: the largest\nchange between two frames that the truth "
-      "does "
-      "not have.\n\n![time and error](tradeoff.png)\n",
+      "is taken out. `ms`: device time of a frame's\nresolve and all passes after it, median and 95 % interval, the "
+      "resolve's part of it over all variants that resolve alike; posing\nand drawing take {} more whatever the "
+      "methods. "
+      "RMSE, bias: of V, with 95 % intervals from the scatter of the pixels. dV/dt: RMSE of\nthe change of V, 1/s; "
+      "flicker: the largest change between two frames that the truth does not have.\n\n"
+      "![time and error](tradeoff.svg)\n",
       table.scene, table.device, table.pixels, joined(frames, ", "), table.cameras, table.rays, noise,
       joined(drawing, ", "));
   write_front(table, text);

@@ -7,12 +7,12 @@
 #include "host/frame/camera_view.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/frame/read_back.hpp"
+#include "host/frame/resolved_planes.hpp"
 #include "host/frame/seen_geometry.hpp"
 #include "host/frame/visibility.hpp"
 #include "host/passes/pose_grass.hpp"
 #include "host/passes/pose_mesh.hpp"
 #include "host/passes/rasterise.hpp"
-#include "host/passes/resolve.hpp"
 #include "sim/dynamics.hpp"
 #include "sim/grass_wind.hpp"
 #include "sim/pose.hpp"
@@ -88,15 +88,12 @@ FrameRunner::Impl::Impl(Device& the_device, const World& the_world, std::uint32_
 
 void FrameRunner::Impl::choose(const Methods& methods) {
   plan = make_plan(world, methods);
-  guard = methods.near == "none" ? 0 : methods.near_field.guard;
+  guard = guard_band(methods);
   const auto width = static_cast<std::size_t>(world.scene.image.width + 2 * guard);
   const auto height = static_cast<std::size_t>(world.scene.image.height + 2 * guard);
   if (visible.words.size() != 2 * width * height)
     visible.words = Buffer<std::uint32_t>(device, 2 * width * height, "visibility buffer");
-  ResolvedPlanes resolved;
-  resolved.grass_height = plan.has("grass-height") || plan.has("grass-transmittance");  // frames keep the heights
-  resolved.rest_point = plan.has("crown-field");
-  resolved.texel = plan.has("crown-baked");
+  const ResolvedPlanes resolved = resolved_planes(plan);
   visibility.reset();  // first free the old methods' programs and planes
   resolve.reset();
   planes = allocate_planes(device, width, height, resolved.grass_height);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "bench/tradeoff.hpp"
+#include "bench/tradeoff_times.hpp"
 #include "sim/error.hpp"
 
 namespace understory {
@@ -108,6 +109,28 @@ TEST(Front, KeepsWhatOnlyABeatenRowBeats) {
   EXPECT_THAT(front_of(rows), ElementsAre("quick", "best"));
 }
 
+TEST(SharedResolve, CountsTheSameWorkTheSame) {
+  World world;
+  std::map<std::string, VariantRecord> records;
+  const auto add = [&](const std::string& name, std::vector<double> resolve, double rest, int shrink = 1) {
+    VariantRecord& record = records[name];
+    record.row.verified = true;
+    record.row.variant.shrink = shrink;
+    Methods& methods = record.row.variant.methods;
+    methods.tree = methods.grass = methods.crowns = methods.occluders = methods.near = "none";
+    for (const double ms : resolve) record.samples.device_ms.push_back(ms + rest);
+    record.samples.pass_ms["resolve"] = std::move(resolve);
+  };
+  add("slow hour", {6, 7, 8}, 1);
+  add("quick hour", {2, 3, 4, 5, 5}, 2);
+  add("small", {0.5, 0.5}, 1, 2);
+  const SharedResolve times(world, records);
+  EXPECT_EQ(times.resolve_ms(records.at("slow hour").row.variant).median, 5);
+  EXPECT_THAT(times.device_ms(records.at("slow hour")), ElementsAre(6, 6, 6));
+  EXPECT_THAT(times.device_ms(records.at("quick hour")), ElementsAre(7, 7, 7, 7, 7));
+  EXPECT_THAT(times.device_ms(records.at("small")), ElementsAre(1.5, 1.5)) << "draws fewer pixels";
+}
+
 TradeoffTable small_table() {
   TradeoffTable table;
   table.scene = "a \"small\" one";
@@ -125,7 +148,7 @@ TradeoffTable small_table() {
   table.rows[0].variant.shrink = 2;
   table.rows[0].variant.relaxed_maths = true;
   table.rows[0].bake_s = 2.5;
-  table.rows[0].pass_ms = {{"combine", 0.25}};
+  table.rows[0].pass_ms = {{"combine", {0.25, 0.2, 0.3}}};
   table.rows[0].classes["tree"] = table.rows[0].error;
   table.rows[0].views = {{1, 5, table.rows[0].error, {{"tree", table.rows[0].error}}}};
   table.rows[0].temporal = TemporalError{0.5, 0.75, 0.125};
@@ -147,6 +170,7 @@ TEST(TradeoffJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.rows[0].variant.methods.grid.size, 16);
   EXPECT_TRUE(back.rows[0].variant.relaxed_maths);
   EXPECT_EQ(back.rows[0].temporal->flicker, 0.125);
+  EXPECT_EQ(back.rows[0].pass_ms.at("combine").high, 0.3);
   EXPECT_FALSE(back.rows[1].temporal);
   EXPECT_LT(back.rows[1].bake_s, 0);
 }
