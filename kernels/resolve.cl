@@ -5,10 +5,9 @@
 // (crown_baked.h). One work-item per W fragments: their triangles lie anywhere in memory, so that the loads of all of
 // them come first and wait for it side by side. Padded fragments are background.
 #pragma OPENCL FP_CONTRACT OFF
-#include "kernels/shared/camera.h"
 #include "kernels/shared/crown_baked.h"
 #include "kernels/shared/fetch_ahead.h"
-#include "kernels/shared/real.h"
+#include "kernels/shared/project_triangles.h"
 #include "kernels/shared/rest_point.h"
 #include "kernels/shared/triangle_corners.h"
 #include "kernels/shared/visibility_buffer.h"
@@ -45,7 +44,10 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
   const uint count = (uint)camera.width * (uint)camera.height;
   uint triangles[W];
   Corners corners_of[W];
-  float4 first_corner[W], second_corner[W], third_corner[W];
+  int seen_lanes[W];
+  uint owner_lanes[W];
+  float corner[9][W];  // x, y, z of corners a, b, c
+  float column[W], row[W];
   for (uint k = 0; k < W; ++k)
     triangles[k] = begin + k < count ? visible_triangle(pixels, count, begin + k) : NO_TRIANGLE;
   for (uint k = 0; k < W; ++k) {
@@ -65,17 +67,77 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     fetch_ahead(posed + corners_of[k].b);
     fetch_ahead(posed + corners_of[k].c);
   }
-  for (uint k = 0; k < W; ++k) {
-    if (triangles[k] == NO_TRIANGLE) continue;
-    first_corner[k] = posed[corners_of[k].a];
-    second_corner[k] = posed[corners_of[k].b];
-    third_corner[k] = posed[corners_of[k].c];
+  for (uint k = 0, x = begin % (uint)camera.width, y = begin / (uint)camera.width; k < W; ++k) {
+    const int seen = triangles[k] != NO_TRIANGLE;
+    float4 a = (float4)(0.0f), b = a, c = a;
+    seen_lanes[k] = seen;
+    owner_lanes[k] = 0;
+    if (seen) {
+      owner_lanes[k] = chunks[triangles[k] / CHUNK].owner;
+      a = posed[corners_of[k].a];
+      b = posed[corners_of[k].b];
+      c = posed[corners_of[k].c];
+    }
+    corner[0][k] = a.x, corner[1][k] = a.y, corner[2][k] = a.z;
+    corner[3][k] = b.x, corner[4][k] = b.y, corner[5][k] = b.z;
+    corner[6][k] = c.x, corner[7][k] = c.y, corner[8][k] = c.z;
+    column[k] = (float)x;
+    row[k] = (float)y;
+    if (++x == (uint)camera.width) x = 0, ++y;
   }
 
+  const truth seen = LOAD(seen_lanes, 0) != 0;
+  const PosedLanes a = {LOAD(corner[0], 0), LOAD(corner[1], 0), LOAD(corner[2], 0)};
+  const PosedLanes u = {LOAD(corner[3], 0) - a.x, LOAD(corner[4], 0) - a.y, LOAD(corner[5], 0) - a.z};
+  const PosedLanes v = {LOAD(corner[6], 0) - a.x, LOAD(corner[7], 0) - a.y, LOAD(corner[8], 0) - a.z};
+
+  // The ray through the pixel's sample; its forward component is 1, so that its parameter is the camera depth.
+  const real right = (LOAD(column, 0) + REAL(0.5) - (real)(camera.centre_x)) / (real)(camera.focal);
+  const real down = (LOAD(row, 0) + REAL(0.5) - (real)(camera.centre_y)) / (real)(camera.focal);
+  const real rx = fma(right, (real)(camera.right[0]), fma(down, (real)(camera.down[0]), (real)(camera.forward[0])));
+  const real ry = fma(right, (real)(camera.right[1]), fma(down, (real)(camera.down[1]), (real)(camera.forward[1])));
+  const real rz = fma(right, (real)(camera.right[2]), fma(down, (real)(camera.down[2]), (real)(camera.forward[2])));
+
+  real nx = u.y * v.z - u.z * v.y, ny = u.z * v.x - u.x * v.z, nz = u.x * v.y - u.y * v.x;
+  const real scale = REAL(1.0) / sqrt(max(nx * nx + ny * ny + nz * nz, REAL(1e-37)));
+  nx *= scale;
+  ny *= scale;
+  nz *= scale;
+  const real facing = nx * rx + ny * ry + nz * rz;
+
+  // Seen edge-on the plane says little about depth: keep it within the triangle's own range.
+  const real za = along(camera.forward, a), zb = za + along(camera.forward, u), zc = za + along(camera.forward, v);
+  const real nearest = max(min(za, min(zb, zc)), (real)(camera.near_plane)), farthest = max(za, max(zb, zc));
+  const real slope = PICK(fabs(facing) > REAL(1e-12), facing, REAL(1e-12));
+  const real t = min(max((nx * a.x + ny * a.y + nz * a.z) / slope, nearest), farthest);
+  const real turn = PICK(facing > REAL(0.0), REAL(-1.0), REAL(1.0));
+
+  // After the first batch pixels that this one does not cover keep what an earlier one wrote.
+#define WRITE(type, plane, value, background)                                                          \
+  STORE(PICK(seen, value, first_batch ? (type)(background) : LOAD(plane, get_global_id(0))), plane, \
+        get_global_id(0))
+  WRITE(real, position_x, t * rx, 0.0f);
+  WRITE(real, position_y, t * ry, 0.0f);
+  WRITE(real, position_z, t * rz, 0.0f);
+  WRITE(real, normal_x, nx * turn, 0.0f);
+  WRITE(real, normal_y, ny * turn, 0.0f);
+  WRITE(real, normal_z, nz * turn, 0.0f);
+  WRITE(real, depth, t, INFINITY);
+  WRITE(bits, owner, LOAD(owner_lanes, 0), 0u);
+  WRITE(bits, validity, (bits)(0u), BACKGROUND);
+#undef WRITE
+  for (uint k = 0; k < W && !last_batch; ++k)
+    if (triangles[k] != NO_TRIANGLE) forget_triangle(pixels, count, begin + k);
+
+#if defined(GRASS_HEIGHT) || defined(REST_POINT) || defined(FACE_TEXEL)
+  float seen_x[W], seen_y[W], seen_z[W], turns[W];
+  STORE(t * rx, seen_x, 0);
+  STORE(t * ry, seen_y, 0);
+  STORE(t * rz, seen_z, 0);
+  STORE(turn, turns, 0);
   for (uint k = 0; k < W; ++k) {
     const uint i = begin + k, triangle = triangles[k];
     if (triangle == NO_TRIANGLE && !first_batch) continue;  // written by an earlier batch
-    if (triangle != NO_TRIANGLE && !last_batch) forget_triangle(pixels, count, i);
 #ifdef GRASS_HEIGHT
     height_above_root[i] = 0;
     total_height[i] = 0;
@@ -88,67 +150,24 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     texel[i] = NO_TEXEL;
     texel_place[i] = 0;
 #endif
-    if (triangle == NO_TRIANGLE) {
-      position_x[i] = position_y[i] = position_z[i] = 0;
-      normal_x[i] = normal_y[i] = normal_z[i] = 0;
-      depth[i] = INFINITY;
-      owner[i] = 0;
-      validity[i] = BACKGROUND;
-      continue;
-    }
-
+    if (triangle == NO_TRIANGLE) continue;
     global const TriangleChunk* chunk = chunks + triangle / CHUNK;
-#if defined(GRASS_HEIGHT) || defined(REST_POINT) || defined(FACE_TEXEL)
     const int is_mesh = triangle / CHUNK < mesh_chunks;
-#endif
-    const float4 a = first_corner[k], b = second_corner[k], c = third_corner[k];
-    const float ax = a.x, ay = a.y, az = a.z;
-    const float ux = b.x - ax, uy = b.y - ay, uz = b.z - az, vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
-
-    // The ray through the pixel's sample; its forward component is 1, so that its parameter is the camera depth.
-    const float right = ((float)(i % (uint)camera.width) + 0.5f - camera.centre_x) / camera.focal;
-    const float down = ((float)(i / (uint)camera.width) + 0.5f - camera.centre_y) / camera.focal;
-    const float rx = fma(right, camera.right[0], fma(down, camera.down[0], camera.forward[0]));
-    const float ry = fma(right, camera.right[1], fma(down, camera.down[1], camera.forward[1]));
-    const float rz = fma(right, camera.right[2], fma(down, camera.down[2], camera.forward[2]));
-
-    float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const float scale = rsqrt(fmax(nx * nx + ny * ny + nz * nz, 1e-37f));
-    nx *= scale;
-    ny *= scale;
-    nz *= scale;
-    const float facing = nx * rx + ny * ry + nz * rz;
-
-    // Seen edge-on the plane says little about depth: keep it within the triangle's own range.
-    const float za = view_point(&camera, ax, ay, az).z, zb = za + view_point(&camera, ux, uy, uz).z,
-                zc = za + view_point(&camera, vx, vy, vz).z;
-    const float nearest = fmax(fmin(za, fmin(zb, zc)), camera.near_plane), farthest = fmax(za, fmax(zb, zc));
-    const float on_plane = (nx * ax + ny * ay + nz * az) / (fabs(facing) > 1e-12f ? facing : 1e-12f);
-    const float t = fmin(fmax(on_plane, nearest), farthest);
-
-    position_x[i] = t * rx;
-    position_y[i] = t * ry;
-    position_z[i] = t * rz;
-    const float turn = facing > 0 ? -1.0f : 1.0f;
-    normal_x[i] = nx * turn;
-    normal_y[i] = ny * turn;
-    normal_z[i] = nz * turn;
-    depth[i] = t;
-    owner[i] = chunk->owner;
-    validity[i] = 0;
 #ifdef GRASS_HEIGHT
     if (!is_mesh) {
       const uint blade = chunk->first_index + triangle % CHUNK;
-      height_above_root[i] = t * rz - (blade_root_z[blade] + root_offset_z);
+      height_above_root[i] = seen_z[k] - (blade_root_z[blade] + root_offset_z);
       total_height[i] = blade_length[blade];
     } else if (owner_height[chunk->owner] > 0) {
-      height_above_root[i] = t * rz - (owner_root_z[chunk->owner] + root_offset_z);
+      height_above_root[i] = seen_z[k] - (owner_root_z[chunk->owner] + root_offset_z);
       total_height[i] = owner_height[chunk->owner];
     }
 #endif
 #if defined(REST_POINT) || defined(FACE_TEXEL)
-    const float2 place =
-        place_in_triangle((float3)(ux, uy, uz), (float3)(vx, vy, vz), (float3)(t * rx - ax, t * ry - ay, t * rz - az));
+    const float3 from = (float3)(corner[0][k], corner[1][k], corner[2][k]);
+    const float2 place = place_in_triangle((float3)(corner[3][k], corner[4][k], corner[5][k]) - from,
+                                           (float3)(corner[6][k], corner[7][k], corner[8][k]) - from,
+                                           (float3)(seen_x[k], seen_y[k], seen_z[k]) - from);
 #endif
 #ifdef FACE_TEXEL
     if (is_mesh) {
@@ -157,7 +176,7 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
       if (columns != 0) {
         const float x = place.x * (float)columns, y = place.y * (float)rows;
         const uint column = min((uint)x, columns - 1), row = min((uint)y, rows - 1);
-        const uint back = facing > 0 ? columns * rows : 0;  // seen from behind
+        const uint back = turns[k] < 0 ? columns * rows : 0;  // seen from behind
         texel[i] = face.x + back + row * columns + column;
         texel_place[i] = (uint)((x - (float)column) * TEXEL_FRACTIONS) | (uint)((y - (float)row) * TEXEL_FRACTIONS)
                                                                              << 16;
@@ -171,7 +190,7 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
       const float3 v = rest_vertex(corners_of[k].c, blocks, rest_x, rest_y, rest_z) - origin;
       const float3 point = origin + place.x * u + place.y * v;
       float3 normal = cross(u, v);
-      normal *= turn * rsqrt(fmax(dot(normal, normal), 1e-37f));
+      normal *= turns[k] * rsqrt(fmax(dot(normal, normal), 1e-37f));
       rest_position_x[i] = point.x;
       rest_position_y[i] = point.y;
       rest_position_z[i] = point.z;
@@ -181,4 +200,5 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     }
 #endif
   }
+#endif
 }
