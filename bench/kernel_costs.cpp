@@ -48,7 +48,7 @@ constexpr KernelCost costs[] = {
      "edges in whole numbers, whose operations are not counted"},
     {"rasterise-grass", "triangle", 36, 25.6, 129, 0, 0, 4.27, false,
      "edges in whole numbers, whose operations are not counted"},
-    {"resolve", "pixel", 13.5, 36, 106, 0, 9, 0, false, "corners are gathered through two indirections: cache misses"},
+    {"resolve", "pixel", 13.5, 36, 77, 0, 9, 0, false, "corners are gathered through two indirections: cache misses"},
     {"check-fragments", "fragment", 28, 16, 17, 0, 0, 0, true, ""},
     {"normals-from-depth", "pixel", 8, 12, 92.4, 0, 7, 0, false,
      "one pixel per work-item with branches at its neighbours"},
