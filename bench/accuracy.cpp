@@ -50,6 +50,9 @@ void judge_subject(Device& device, const AccuracySubject& subject, const Accurac
                    std::set<std::string>& unknown, AccuracyReport& report) {
   AccuracyJudge judge(device, subject, options);
   if (subject.truth_itself) report.truth.push_back(judge.truth_itself());
+  if (subject.ball.w > 0)
+    report.rows.push_back(
+        {subject.name, subject.setting, "plant", "any function of place", judge.best_of_ball(subject.ball)});
   for (const AccuracyMethod& method : subject.methods) {
     if (unknown.contains(method.name)) continue;
     const auto errors = judge.errors(method.methods);
@@ -73,6 +76,7 @@ AccuracyReport measure_accuracy(const AccuracyOptions& options) {
   AccuracyReport report;
   report.device = device.info().name;
   report.rays = options.rays;
+  report.fragments = options.fragments;
   std::set<std::string> unknown;
   for (const AccuracySubject& subject : subjects) {
     if (options.progress) options.progress(subject.name + "/" + subject.setting);

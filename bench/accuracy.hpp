@@ -27,7 +27,8 @@ struct AccuracyRow {
   std::string scene;    // black oak, ...
   std::string setting;  // sphere: alone under `sky: sphere`; dome: on ground; gust: on ground in a wind of 8 m/s; ...
   std::string surface;  // plant, ground, blades
-  std::string method;   // "crown-field", or "tree + crowns" where both are chosen
+  std::string method;   // "crown-field", or "tree + crowns" where both are chosen; "any function of place": the bound
+                        // of bench/place_regression.hpp
   ErrorStatistics errors;
 };
 
@@ -44,7 +45,8 @@ struct TruthRow {
 
 struct AccuracyReport {
   std::string device;
-  int rays = 0;
+  int rays = 0;               // per fragment
+  std::size_t fragments = 0;  // at most, per side and surface
   std::vector<AccuracyRow> rows;
   std::vector<TruthRow> truth;
   std::vector<CanopyTruth> canopies;
@@ -54,7 +56,7 @@ struct AccuracyReport {
 /// Throws Error(invalid_input) when the data folder lacks a mesh.
 AccuracyReport measure_accuracy(const AccuracyOptions& options);
 
-/// The report as Markdown: a table of RMSE per setting and surface, one of bias and log error.
+/// The report as Markdown: per setting and surface a table of RMSE without the truth's noise, bias and log error.
 std::string accuracy_markdown(const AccuracyReport& report);
 
 }  // namespace understory

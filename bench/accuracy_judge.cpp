@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "bench/accuracy_pictures.hpp"
+#include "bench/place_regression.hpp"
 #include "host/trace/calibrated_world.hpp"
 #include "host/trace/frame_truth.hpp"
 #include "sim/error.hpp"
@@ -167,6 +168,19 @@ std::map<std::string, ErrorStatistics> AccuracyJudge::errors(const Methods& meth
     result[surface] = error_statistics(value, truth.visibility, truth.halfwidth, truth.rays);
   }
   return result;
+}
+
+ErrorStatistics AccuracyJudge::best_of_ball(glm::dvec4 ball) const {
+  const Points& points = points_.at("plant");
+  const Truth& truth = truth_.at("plant");
+  std::vector<glm::dvec2> places;
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    const glm::dvec3 p = (glm::dvec3(points.positions[i]) - glm::dvec3(ball)) / ball.w;
+    const double distance = std::max(glm::length(p), 1e-9);
+    // Dense crowns go dark within a fraction of their radius: depth counts three times.
+    places.emplace_back(3 * distance, glm::dot(p, glm::dvec3(points.normals[i])) / distance);
+  }
+  return error_statistics(best_of_place(places, truth.visibility), truth.visibility, truth.halfwidth, truth.rays);
 }
 
 TruthRow AccuracyJudge::truth_itself() const {

@@ -19,6 +19,9 @@ class AccuracyJudge {
 
   /// By surface. Empty: this build knows no such method. Throws Error for anything else that goes wrong.
   std::map<std::string, ErrorStatistics> errors(const Methods& methods);
+  /// Of the best smooth function of distance from a ball's middle and angle between normal and radius, on the plant's
+  /// fragments (bench/place_regression.hpp). `ball`: centre and radius, m.
+  ErrorStatistics best_of_ball(glm::dvec4 ball) const;
   /// Speed and intervals of the truth on the subject's plant fragments, at 256 rays.
   TruthRow truth_itself() const;
   /// Writes truth | method | difference of the first side into `folder`, named after the scene and `method_name`.

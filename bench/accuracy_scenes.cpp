@@ -118,14 +118,16 @@ void add_plants(const std::filesystem::path& data, std::vector<AccuracySubject>&
     }
 }
 
-/// 200,000 leaves in a ball of 5 m.
+/// 200,000 leaves in a ball.
 void add_random_crowns(const std::filesystem::path& scratch, std::vector<AccuracySubject>& subjects) {
+  constexpr double radius = 5;  // m
   for (const double optical_radius : {0.25, 1.0, 4.0, 16.0}) {
     AccuracySubject subject;
     subject.name = fmt::format("random crown, kR = {}", optical_radius);
     subject.setting = "random";
+    subject.ball = {0, 0, radius, radius};
     const std::filesystem::path file = scratch / fmt::format("random_crown_{}.gltf", optical_radius);
-    if (!std::filesystem::exists(file)) write_random_crown(file, 200'000, 5, optical_radius);
+    if (!std::filesystem::exists(file)) write_random_crown(file, 200'000, radius, optical_radius);
     subject.scene = empty_scene();
     subject.scene.species.push_back(species_of("ball", file, SpeciesSource{}.leaf_materials));
     plant(subject.scene, "ball", {0, 0}, 0);

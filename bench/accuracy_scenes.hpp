@@ -1,6 +1,7 @@
 // What the accuracy table is measured on, and with which methods.
 #pragma once
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct AccuracySubject {
   bool truth_itself = false;  // judge the truth's speed and intervals
   double first_time = 0;      // s, of the first of the four sides
   double time_step = 0;       // s, between the sides: in the wind each is seen at another moment
+  glm::dvec4 ball{0};         // centre and radius, m, of a crown that is the same all round; radius 0: none
   double elevation = 0.2;     // radians above the horizon from which the sides are seen
 };
 

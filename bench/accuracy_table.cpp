@@ -38,6 +38,15 @@ const AccuracyRow* find_row(const AccuracyReport& report, const Block& block, co
   return nullptr;
 }
 
+/// What a reader must know of a block, below its title.
+std::string note_of(const Block& block) {
+  if (block.setting == "random")
+    return "\nAny function of place: the least RMSE that a method can have which knows the distance from the middle "
+           "and "
+           "the\nangle between normal and radius, and nothing of the leaves around (`bench/place_regression.hpp`).\n";
+  return {};
+}
+
 std::string title_of(const Block& block) {
   if (block.setting == "sphere") return "Alone, `sky: sphere`, at rest";
   if (block.setting == "dome") return "On ground, `sky: dome`, at rest: " + block.surface;
@@ -49,7 +58,8 @@ std::string title_of(const Block& block) {
 }
 
 void write_errors(const AccuracyReport& report, const Block& block, std::string& text) {
-  text += fmt::format("\n## {}\n\n| | fragments | mean V | truth noise | best constant |", title_of(block));
+  text += fmt::format("\n## {}\n{}\n| | fragments | mean V | truth noise | best constant |", title_of(block),
+                      note_of(block));
   for (const std::string& method : block.methods) text += fmt::format(" {} |", method);
   text += "\n|---|---|---|---|---|";
   for (std::size_t i = 0; i < block.methods.size(); ++i) text += "---|";
@@ -64,7 +74,8 @@ void write_errors(const AccuracyReport& report, const Block& block, std::string&
                             row->errors.reference_mean, row->errors.truth_noise, row->errors.best_constant);
         head = true;
       }
-      cells += row ? fmt::format(" {:.3f} ({:+.3f}, {:.2f}) |", row->errors.rmse, row->errors.bias, row->errors.log_mae)
+      cells += row ? fmt::format(" {:.3f} ({:+.3f}, {:.2f}) |", row->errors.rmse_denoised, row->errors.bias,
+                                 row->errors.log_mae)
                    : " |";
     }
     text += cells + "\n";
@@ -79,7 +90,8 @@ void write_list(const AccuracyReport& report, const Block& block, std::string& t
   text += "| | RMSE | bias | log error |\n|---|---|---|---|\n";
   for (const std::string& method : block.methods) {
     const ErrorStatistics& errors = find_row(report, block, block.scenes[0], method)->errors;
-    text += fmt::format("| {} | {:.3f} | {:+.3f} | {:.2f} |\n", method, errors.rmse, errors.bias, errors.log_mae);
+    text +=
+        fmt::format("| {} | {:.3f} | {:+.3f} | {:.2f} |\n", method, errors.rmse_denoised, errors.bias, errors.log_mae);
   }
 }
 
@@ -113,13 +125,13 @@ void write_truth(const AccuracyReport& report, std::string& text) {
 
 std::string accuracy_markdown(const AccuracyReport& report) {
   std::string text = fmt::format(
-      "# Accuracy\n\nMade by `understory bench --accuracy bench/accuracy.md`, never by hand; on {}. V_c, fragments "
-      "seen "
-      "from four sides,\ntruth of {} rays a fragment. Each entry is RMSE (bias, mean |ln V - ln truth| of values of at "
-      "least 0.001).\nTruth noise: its root mean square standard error, contained in every RMSE. Best constant: the "
-      "RMSE "
-      "of the mean\ntruth.\n",
-      report.device, report.rays);
+      "# Accuracy\n\nMade by `understory bench --accuracy bench/accuracy.md --rays {} --per-side {}`, never by hand; "
+      "on "
+      "{}.\nV_c, fragments seen from four sides, truth of {} rays a fragment. Each entry is RMSE (bias, mean |ln V - "
+      "ln "
+      "truth| of\nvalues of at least 0.001), the truth's own variance taken out of the RMSE. Truth noise: the root of "
+      "that variance. Best\nconstant: the RMSE of the mean truth, noise taken out too.\n",
+      report.rays, report.fragments, report.device, report.rays);
   for (const Block& block : blocks_of(report))
     (block.scenes.size() == 1 && block.methods.size() > 8 ? write_list : write_errors)(report, block, text);
   write_truth(report, text);

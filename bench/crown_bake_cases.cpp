@@ -56,8 +56,11 @@ CrownFieldTables field_tables(Device& device, const BenchFragments& all) {
 
 std::uint32_t fraction(float share) { return static_cast<std::uint32_t>((0.5f + 0.5f * share) * TEXEL_FRACTIONS); }
 
+/// Between 0.6 and 1.4.
+std::uint32_t tilt_steps(float share) { return static_cast<std::uint32_t>((1 + 0.4f * share) * TILT_STEPS); }
+
 /// Neighbours see the same leaf or one near it: texels of one neighbourhood per tile, taken by the tile's owner and
-/// place; the fractions come from the normal.
+/// place; fractions and tilt come from the normal.
 void add_texel_planes(Device& device, BenchFragments& all) {
   std::vector<std::uint32_t> texel(all.planes.padded_fragments), place(all.planes.padded_fragments);
   for (std::size_t i = 0; i < texel.size(); ++i) {
@@ -66,7 +69,7 @@ void add_texel_planes(Device& device, BenchFragments& all) {
     const std::size_t tile = i / all.planes.row_length / 16 * all.planes.row_length + i % all.planes.row_length / 16;
     const std::size_t leaf = tile * 7919 + i % 16 / 4 * 97 + i / all.planes.row_length % 16 / 4 * 31;
     texel[i] = plant ? static_cast<std::uint32_t>(leaf * 6 % texel_count) : NO_TEXEL;
-    place[i] = fraction(f.normal.x) | fraction(f.normal.y) << 16;
+    place[i] = fraction(f.normal.x) | fraction(f.normal.y) << 12 | tilt_steps(f.normal.z) << 24;
   }
   all.planes.texel = Buffer<std::uint32_t>(device, std::span<const std::uint32_t>(texel), "texel");
   all.planes.texel_place = Buffer<std::uint32_t>(device, std::span<const std::uint32_t>(place), "texel place");
@@ -81,9 +84,10 @@ double field_reference(const BenchFragments& all, const BenchFragment& f) {
 
 double baked_reference(const BenchFragments& all, const BenchFragment& f) {
   if (all.owner_rows()[f.owner].crown < 0) return 1;
-  const double u = fraction(f.normal.x) / 65535.0, v = fraction(f.normal.y) / 65535.0;
+  const double u = fraction(f.normal.x) / 4095.0, v = fraction(f.normal.y) / 4095.0;
+  const double tilt = tilt_steps(f.normal.z) / 128.0;
   const auto corner = [](int number) { return double(texel_corners[number]); };
-  return texel_visibility(corner(0), corner(1), corner(2), corner(3), u, v);
+  return texel_visibility(corner(0), corner(1), corner(2), corner(3), u, v, tilt);
 }
 
 }  // namespace

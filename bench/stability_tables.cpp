@@ -259,8 +259,7 @@ class TableCases {
         add("crown-baked", "every kind of texel, place and missing texel", std::vector<TestFragment>(samples_), model);
     one.extreme = false;
     one.exact = [=](std::size_t i) {
-      const glm::dvec2 share(place[i] % 65536 / 65535.0, place[i] / 65536 / 65535.0);
-      return at[i] < texels.size() ? reference::texel_visibility(texels[at[i]], share) : 1;
+      return at[i] < texels.size() ? reference::texel_visibility(texels[at[i]], place[i]) : 1;
     };
   }
 

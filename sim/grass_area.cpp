@@ -16,8 +16,8 @@
 namespace understory {
 namespace {
 
-constexpr double cells_per_height = 8, most_columns = 65536;
-constexpr double smallest_cell = 0.06;  // m: smaller ones would hold a single blade, which does not shade itself
+constexpr double cells_per_height = 16, most_columns = 65536;
+constexpr double smallest_cell = 0.03;  // m: smaller ones would hold a single blade, which does not shade itself
 constexpr double border = 2;            // in heights of the grass: further away it hides less than 3 % of the sky
 constexpr std::uint32_t slab_count = 12;
 constexpr int points_per_blade = 8;

@@ -30,7 +30,7 @@ struct GrassArea {
 };
 
 /// Grass fields in the mean wind, and plants of a mesh with blades at rest, stems and ears (half their surface)
-/// included. Cells are an eighth of the grass' height, but 6 cm or more, and as wide as it takes for 65,536 of them,
+/// included. Cells are a sixteenth of the grass' height, but 3 cm or more, and as wide as it takes for 65,536 of them,
 /// with a border of twice the height around the grass.
 GrassArea measure_grass(const World& world);
 

@@ -12,6 +12,7 @@
 #include "host/trace/bake_cache.hpp"
 #include "host/trace/crown_baked.hpp"
 #include "host/trace/crown_field.hpp"
+#include "kernels/shared/crown_baked.h"
 
 namespace understory {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 /// Go up whenever the same options give another result.
-constexpr std::uint32_t field_version = 1, faces_version = 1;
+constexpr std::uint32_t field_version = 1, faces_version = 3;
 
 /// All that a bake sees of a prototype.
 void add_shape(ContentHash& hash, const Prototype& prototype) {
@@ -98,6 +99,19 @@ CrownBaked baked_faces(const Prototype& prototype, const CrownBakedOptions& opti
   return baked;
 }
 
+/// FACE_RISE of a triangle.
+std::uint32_t rise_of(const Prototype& prototype, std::uint32_t triangle, Sky sky) {
+  if (sky == Sky::sphere) return NO_RISE;
+  const auto corner = [&](std::uint32_t number) {
+    const std::uint32_t v = prototype.triangles[3 * triangle + number];
+    return glm::vec3(prototype.vertices.x[v], prototype.vertices.y[v], prototype.vertices.z[v]);
+  };
+  const glm::vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+  const float length = glm::length(normal);
+  if (!(length > 0)) return NO_RISE;
+  return static_cast<std::uint32_t>(std::lround((std::clamp(normal.z / length, -1.0f, 1.0f) + 1) * RISE_STEPS));
+}
+
 /// Which fields there are, by prototype; -1: none.
 std::vector<std::int32_t> number_fields(const World& world) {
   std::vector<std::int32_t> numbers(world.prototypes.size(), -1);
@@ -162,6 +176,7 @@ CrownBakedTables upload_crown_baked(Device& device, const World& world) {
       for (std::uint32_t k = 0; k < run.count; ++k) {
         std::array<std::uint32_t, 2> face = baked.faces[run.first + k];
         face[0] += static_cast<std::uint32_t>(texels.size());
+        face[1] |= rise_of(prototype, run.first + k, options.sky) << 16;
         faces[start + k] = face;
       }
     }

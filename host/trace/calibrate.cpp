@@ -110,7 +110,7 @@ class Fitting {
     std::array<double, 3> constants{};  // k, near share, scale of the shell
     std::vector<double> fitted;
     double least = 1e9;
-    for (const double scale : {1.0, 0.92, 0.84, 0.76}) {  // the rim is sparse
+    const auto try_scale = [&](double scale) {
       const ShellChords chords(shells_of(crown_, shape, scale), points_);
       double factor = 1;
       const auto scaled = [&](double k) {
@@ -124,10 +124,17 @@ class Fitting {
                                  [&](double x) { return mean_square(scaled(x), points_.visibility, 0); });
       const std::vector<double> values = scaled(k);
       const double error = mean_square(values, points_.visibility, 0);
-      if (error >= least) continue;
+      if (error >= least) return;
       least = error;
       fitted = values;
       constants = {k, factor, scale};
+    };
+    // The rim is sparse. A dense crown goes dark within a fiftieth of its radius: there hundredths count.
+    for (const double scale : {1.0, 0.92, 0.84, 0.76}) try_scale(scale);
+    for (const double step : {0.04, 0.02, 0.01}) {
+      const double middle = constants[2];
+      if (middle + step <= 1) try_scale(middle + step);
+      try_scale(middle - step);
     }
     const double error = score(std::string("crown-transmittance/") + name, fitted);
     result_.transmittance[name] = constants;

@@ -187,9 +187,11 @@ bool sample_everywhere(const RestSurface& surface, FaceSide& side, std::size_t f
   return std::find(bundle.open.begin(), bundle.open.end(), 1) != bundle.open.end();
 }
 
-/// Only places that are seen count: those whose first ray gets out.
-void sample_where_seen(const RestSurface& surface, FaceSide& side, std::size_t rays, Sky sky, std::uint32_t seed) {
+/// Only places that are seen count: those whose first ray gets out. Returns the rays spent.
+std::size_t sample_where_seen(const RestSurface& surface, FaceSide& side, std::size_t rays, Sky sky,
+                              std::uint32_t seed) {
   constexpr std::size_t per_place = 3;
+  constexpr std::size_t hardly = 64;  // one of so many
   std::size_t spent = 0, seen = 0;
   for (std::uint32_t index = 0; spent < rays;) {
     RayBundle views, more;
@@ -210,19 +212,24 @@ void sample_where_seen(const RestSurface& surface, FaceSide& side, std::size_t r
     }
     seen += more.starts.size() / per_place;
     spent += round + more.starts.size();
-    // Hardly any place is seen: what there is of them would say too little about the rest.
-    if (seen * 8 < index)
-      return (void)sample_everywhere(surface, side, 0, std::max(first_rays, rays - std::min(rays, spent)), sky,
-                                     seed + 3);
+    // Inside a stem. What is seen of it, if it is open somewhere, would say too little about the rest.
+    if (index >= hardly && seen * hardly < index) {
+      sample_everywhere(surface, side, 0, first_rays, sky, seed + 3);
+      return spent + first_rays;
+    }
   }
+  return spent;
 }
 
 /// Stems run into each other, so that parts of a face may lie inside wood, where nobody sees them: on wood only places
-/// that are seen count. Leaves are thin: all of them counts.
-void sample_side(const RestSurface& surface, FaceSide& side, bool wood, std::size_t rays, Sky sky, std::uint32_t seed) {
+/// that are seen count. Leaves are thin: all of them counts. Returns the rays spent.
+std::size_t sample_side(const RestSurface& surface, FaceSide& side, bool wood, std::size_t rays, Sky sky,
+                        std::uint32_t seed) {
   if (wood) return sample_where_seen(surface, side, rays, sky, seed);
-  if (sample_everywhere(surface, side, 0, std::min(rays, first_rays), sky, seed) && rays > first_rays)
-    sample_everywhere(surface, side, first_rays, rays, sky, seed);
+  const std::size_t first = std::min(rays, first_rays);
+  if (!sample_everywhere(surface, side, 0, first, sky, seed) || rays <= first_rays) return first;
+  sample_everywhere(surface, side, first_rays, rays, sky, seed);
+  return rays;
 }
 
 std::vector<SurfaceClass> classes_of(const Prototype& prototype) {
@@ -265,13 +272,14 @@ CrownBaked bake_crown_faces(const Prototype& prototype, const CrownBakedOptions&
   const double all_rays = std::min(options.rays_per_triangle * double(count), options.most_rays);
   const std::vector<SurfaceClass> classes = classes_of(prototype);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-    const auto rays = static_cast<std::size_t>(all_rays / 2 * share[i] / shares) + 8;
+    std::size_t rays = 2 * (static_cast<std::size_t>(all_rays / 2 * share[i] / shares) + 8);
     const std::size_t per_side = static_cast<std::size_t>(lattices[i].columns * lattices[i].rows);
-    for (const bool front : {true, false}) {
+    // Backs of stems are hidden: the fronts get what they leave.
+    for (const bool front : {false, true}) {
       FaceSide side(surface, field, i, front, lattices[i]);
       const auto seed = static_cast<std::uint32_t>(mix_bits(2 * i + (front ? 0 : 1)) + options.seed);
       const bool wood = classes[i] == SurfaceClass::wood;
-      sample_side(surface, side, wood, rays, options.sky, seed);
+      rays -= std::min(rays, sample_side(surface, side, wood, front ? rays : rays / 2, options.sky, seed));
       side.store(side.fit(), &baked.texels[baked.faces[i][0] + (front ? 0 : per_side)]);
     }
   });

@@ -16,6 +16,7 @@ constexpr std::uint32_t most_limbs = 384;
 constexpr float shortest_limb = 0.05f;       // share of the mesh's height
 constexpr float shortest_trunk = 0.3f;       // below this the wood is in pieces that tell nothing of its growth
 constexpr float ground_layer = 0.05f;        // share of the height: what starts here may stand on its own
+constexpr float same_corner = 1e-5f;         // share of the height: triangles written one by one round corners apart
 constexpr float joint = 0.02f;               // share of the height: wood this near touches
 constexpr float sample_spacing = 0.01f;      // share of the height
 constexpr float largest_flutter_arm = 0.5f;  // m: a canopy in one piece does not flap as one leaf
@@ -221,7 +222,7 @@ std::vector<glm::vec3> piece_normals(const FlatMesh& flat, const Pieces& pieces)
 /// Hangs every leaf on the nearest wood and lets it turn about its point next to it (its lowest without wood).
 void attach_foliage(LimbMesh& mesh, const FlatMesh& flat, const NearestPoints* samples,
                     const std::vector<std::uint32_t>& limb_of_rank, std::uint64_t seed) {
-  const Pieces pieces = connected_pieces(flat.positions, flat.foliage);
+  const Pieces pieces = connected_pieces(flat.positions, flat.foliage, same_corner * flat.height());
   const std::vector<glm::vec3> normals = piece_normals(flat, pieces);
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
     const std::uint32_t* first = pieces.vertices.data() + pieces.first[piece];

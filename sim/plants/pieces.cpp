@@ -24,15 +24,39 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-void join_equal_positions(const std::vector<glm::vec3>& positions, const std::vector<bool>& used, Sets& sets) {
-  std::vector<std::uint32_t> order;
+/// Joins vertices no further apart than `tolerance`, m, in any coordinate.
+void join_near_positions(const std::vector<glm::vec3>& positions, const std::vector<bool>& used, float tolerance,
+                         Sets& sets) {
+  // Along an axis that meshes hardly ever lie square to, so that few vertices are level with one another.
+  const glm::vec3 sweep(0.267f, 0.535f, 0.802f);
+  struct Vertex {
+    float along;
+    glm::vec3 position;
+    std::uint32_t number;
+  };
+  std::vector<Vertex> order;
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
-    if (used[i]) order.push_back(i);
+    if (used[i]) order.push_back({glm::dot(sweep, positions[i]), positions[i], i});
   }
-  const auto key = [&](std::uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (key(order[i - 1]) == key(order[i])) sets.join(order[i - 1], order[i]);
+  std::sort(order.begin(), order.end(), [](const Vertex& a, const Vertex& b) {
+    return std::tie(a.along, a.position.x, a.position.y, a.position.z, a.number) <
+           std::tie(b.along, b.position.x, b.position.y, b.position.z, b.number);
+  });
+  // Many vertices at one position count once.
+  std::size_t places = 0;
+  for (const Vertex& vertex : order) {
+    if (places > 0 && order[places - 1].position == vertex.position) {
+      sets.join(order[places - 1].number, vertex.number);
+    } else {
+      order[places++] = vertex;
+    }
+  }
+  const float window = tolerance * (sweep.x + sweep.y + sweep.z);
+  for (std::size_t i = 0; i < places; ++i) {
+    for (std::size_t k = i + 1; k < places && order[k].along - order[i].along <= window; ++k) {
+      const glm::vec3 apart = glm::abs(order[k].position - order[i].position);
+      if (std::max({apart.x, apart.y, apart.z}) <= tolerance) sets.join(order[i].number, order[k].number);
+    }
   }
 }
 
@@ -43,7 +67,8 @@ std::uint32_t farthest(const std::uint32_t* first, const std::uint32_t* last, Di
 
 }  // namespace
 
-Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& triangles) {
+Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& triangles,
+                        float tolerance) {
   Sets sets(positions.size());
   std::vector<bool> used(positions.size(), false);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
@@ -51,7 +76,7 @@ Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vect
     sets.join(triangles[i], triangles[i + 2]);
     for (std::size_t k = 0; k < 3; ++k) used[triangles[i + k]] = true;
   }
-  join_equal_positions(positions, used, sets);
+  join_near_positions(positions, used, tolerance, sets);
 
   Pieces pieces;
   pieces.of_vertex.assign(positions.size(), no_piece);

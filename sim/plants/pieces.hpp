@@ -14,8 +14,10 @@ struct Pieces {
 };
 inline constexpr std::uint32_t no_piece = 0xffffffffu;
 
-/// Triangles that share a vertex or a position (to the bit) belong to one piece. Numbered by their lowest vertex.
-Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& triangles);
+/// Triangles belong to one piece that share a vertex or a position, or have corners that differ by `tolerance` (m) at
+/// most in each coordinate. Numbered by their lowest vertex. Positions must be finite.
+Pieces connected_pieces(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& triangles,
+                        float tolerance = 0);
 
 /// An end of a stem: the middle of its outermost vertices and their mean distance from it, m.
 struct StemEnd {

@@ -101,7 +101,7 @@ TEST(AccuracyMarkdown, ListsEveryRowAndWhatIsMissing) {
   AccuracyReport report;
   report.rays = 64;
   AccuracyRow row{"oak", "dome", "plant", "crown-field", {}};
-  row.errors.rmse = 0.0714;
+  row.errors.rmse_denoised = 0.0714;
   row.errors.bias = -0.012;
   report.rows.push_back(row);
   row.scene = "elm";

@@ -78,6 +78,30 @@ TEST(CrownBakes, FacesOfAStillPlantAgreeWithItsField) {
   EXPECT_NEAR(sum / count, 0, 0.02);
 }
 
+/// Root mean square of what `crown-baked` gives the leaves of a nearly bare shrub less what open ground would give
+/// them.
+double against_open_sky(double wind, double time) {
+  Scene scene = still_shrub();
+  scene.species[0].leaves = 40;
+  scene.methods.tree = "crown-baked";
+  scene.wind.speed = wind;
+  const Frame frame = render(scene, time);
+  double square = 0, count = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (is_background(frame, i) || frame.owners[frame.owner[i]].surface != SurfaceClass::leaf) continue;
+    const double error = double(frame.visibility[i]) - 0.5 * (1 + double(frame.normal[2][i]));
+    square += error * error, ++count;
+  }
+  EXPECT_GT(count, 100) << "leaves are to be seen";
+  return std::sqrt(square / count);
+}
+
+TEST(CrownBakes, LeavesThatTurnToTheSkySeeMoreOfIt) {
+  UNDERSTORY_NEEDS_DEVICE();
+  const double still = against_open_sky(0, 0);
+  for (const double time : {1.0, 2.0, 3.0}) EXPECT_LE(against_open_sky(14, time), still + 0.015) << time;
+}
+
 TEST(CrownBakes, FacesNeedTheTrianglesOfAFrame) {
   UNDERSTORY_NEEDS_DEVICE();
   Scene scene = still_shrub();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/place_regression.hpp"
 #include "bench/ssim.hpp"
 #include "host/trace/truth.hpp"
 #include "sim/random.hpp"
@@ -36,6 +37,33 @@ TEST(ErrorStatistics, LogErrorSeesDenseCrownsAndStopsAtItsFloor) {
 }
 
 TEST(ErrorStatistics, OfNothingIsNothing) { EXPECT_EQ(error_statistics({}, {}, {}, {}).rmse, 0); }
+
+TEST(PlaceRegression, LeavesTheScatterThatNoFunctionOfPlaceFollows) {
+  std::vector<glm::dvec2> places;
+  std::vector<float> truth;
+  constexpr double scatter = 0.07;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    Random random(5, stream_of("place"), i);
+    const glm::dvec2 p = places.emplace_back(random.uniform(0, 3), random.uniform(-1, 1));
+    truth.push_back(static_cast<float>(0.2 * p.x + 0.3 * std::sin(2 * p.y) + scatter * random.normal()));
+  }
+  const ErrorStatistics errors = error_statistics(best_of_place(places, truth), truth, {}, {});
+  EXPECT_NEAR(errors.rmse, scatter, 0.03 * scatter);  // 3000 points: 1.3 %; the function's curve: less
+  EXPECT_NEAR(errors.bias, 0, 0.005);
+}
+
+TEST(PlaceRegression, PlanesLeaveNothingAndFewPointsTellNothing) {
+  std::vector<glm::dvec2> places;
+  std::vector<float> truth;
+  for (int i = 0; i < 100; ++i) {
+    places.emplace_back(i % 10, i / 10);
+    truth.push_back(0.03f * static_cast<float>(i % 10) - 0.02f * static_cast<float>(i / 10));
+  }
+  EXPECT_NEAR(error_statistics(best_of_place(places, truth), truth, {}, {}).max, 0, 1e-6);
+  const std::vector<glm::dvec2> few(5);
+  const std::vector<float> values{0, 1, 0, 1, 0};
+  EXPECT_EQ(best_of_place(few, values), values);
+}
 
 TEST(ErrorStatistics, NinetyFivePercentAreNotAbove) {
   std::vector<float> value(1000), reference(1000, 0);

@@ -44,9 +44,8 @@ TEST(CrownBaked, DeviceIsTheReference) {
     }
     const Shaded shaded = shade(fragments, texels);
     for (std::size_t i = 0; i < size; ++i) {
-      const glm::dvec2 place(fragments.place[i] % 65536 / 65535.0, fragments.place[i] / 65536 / 65535.0);
       const bool known = fragments.texel[i] < texels.size();
-      const double exact = known ? reference::texel_visibility(texels[fragments.texel[i]], place) : 1;
+      const double exact = known ? reference::texel_visibility(texels[fragments.texel[i]], fragments.place[i]) : 1;
       EXPECT_NEAR(shaded.visibility[i], exact, 2e-6) << i;
       EXPECT_EQ(shaded.validity[i], 0u);
     }
@@ -58,10 +57,21 @@ TEST(CrownBaked, ClosedFormsAtTheCorners) {
   // V = 0.1, 0.3, 0.7, 1.0 to half a step, and two values beyond [0, 1].
   const std::vector<std::uint32_t> texels{77u | 102u << 8 | 153u << 16 | 191u << 24,
                                           0u | 255u << 8 | 0u << 16 | 255u << 24};
-  const std::uint32_t one = 65535;
-  const Shaded shaded = shade({{0, 0, 0, 0, 1, 1, NO_TEXEL}, {0, one, one << 16, one | one << 16, 0, one, 0}}, texels);
+  const std::uint32_t right = 4095, high = right << 12, level = 128u << 24;
+  const Shaded shaded = shade({{0, 0, 0, 0, 1, 1, NO_TEXEL},
+                               {level, level | right, level | high, level | right | high, level, level | right, 0}},
+                              texels);
   const double expected[] = {0.1, 0.3, 0.7, 1.0, 0, 1, 1};
   for (std::size_t i = 0; i < std::size(expected); ++i) EXPECT_NEAR(shaded.visibility[i], expected[i], 0.004) << i;
+}
+
+TEST(CrownBaked, TiltScalesWhatIsSeen) {
+  UNDERSTORY_NEEDS_DEVICE();
+  const std::uint32_t third = 102u;  // V = 0.3
+  const Shaded shaded =
+      shade({{0, 0, 0, 0}, {0, 64u << 24, 128u << 24, 255u << 24}}, {third | third << 8 | third << 16 | third << 24});
+  const double expected[] = {0, 0.15, 0.3, 0.3 * 255 / 128};
+  for (std::size_t i = 0; i < std::size(expected); ++i) EXPECT_NEAR(shaded.visibility[i], expected[i], 0.001) << i;
 }
 
 TEST(CrownBaked, GarbageStaysWithinBounds) {

@@ -9,18 +9,23 @@
 
 namespace understory::reference {
 
-/// `place`: in the texel, [0, 1].
-inline double texel_visibility(std::uint32_t texel, glm::dvec2 place) {
+/// `place`: in the texel, [0, 1]. `tilt`: what the value is multiplied with before it is limited to [0, 1].
+inline double texel_visibility(std::uint32_t texel, glm::dvec2 place, double tilt = 1) {
   double sum = 0;
   for (int corner = 0; corner < 4; ++corner) {
     const double value = static_cast<double>(texel / (1u << (8 * corner)) % 256) / 127.5 - 0.5;
     const double across = corner % 2 == 0 ? 1 - place.x : place.x, along = corner / 2 == 0 ? 1 - place.y : place.y;
     sum += across * along * value;
   }
-  return std::clamp(sum, 0.0, 1.0);
+  return std::clamp(sum * tilt, 0.0, 1.0);
 }
 
-/// V on one side of a face at shares `place` of its corners b and c. `face`: first texel, columns | rows << 8.
+/// The same from a packed place: shares of 12 bits each and the tilt in 128ths.
+inline double texel_visibility(std::uint32_t texel, std::uint32_t packed) {
+  return texel_visibility(texel, {packed % 4096 / 4095.0, packed / 4096 % 4096 / 4095.0}, packed / 16777216 / 128.0);
+}
+
+/// V on one side of a face at shares `place` of its corners b and c. `face`: first texel, columns | rows << 8 as baked.
 inline double face_visibility(const std::vector<std::uint32_t>& texels, std::array<std::uint32_t, 2> face, bool front,
                               glm::dvec2 place) {
   const std::uint32_t columns = face[1] % 256, rows = face[1] / 256;
