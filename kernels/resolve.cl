@@ -178,7 +178,7 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
         const uint column = min((uint)x, columns - 1), row = min((uint)y, rows - 1);
         const uint back = turns[k] < 0 ? columns * rows : 0;  // seen from behind
         texel[i] = face.x + back + row * columns + column;
-        texel_place[i] = texel_place_of(x - (float)column, y - (float)row, face_tilt(face, nz, turn));
+        texel_place[i] = texel_place_of(x - (float)column, y - (float)row, face_tilt(face, normal_z[i], turns[k]));
       }
     }
 #endif

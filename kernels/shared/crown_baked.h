@@ -37,11 +37,11 @@ SHARED real texel_visibility(real at_00, real at_10, real at_01, real at_11, rea
 }
 
 #ifdef __OPENCL_C_VERSION__
-/// The tilt of a face whose front faces up by `z` now; `turn`: 1 seen from the front, -1 from behind.
+/// The tilt of a face whose seen side faces up by `z` now; `turn`: 1 seen from the front, -1 from behind.
 static inline float face_tilt(uint2 face, float z, float turn) {
   const uint rise = FACE_RISE(face);
   const float rest = fma((float)rise, 1.0f / RISE_STEPS, -1.0f);
-  const float ratio = fma(turn, z, 1.0f) / fmax(fma(turn, rest, 1.0f), 1e-4f);
+  const float ratio = (1.0f + z) / fmax(fma(turn, rest, 1.0f), 1e-4f);
   return rise == NO_RISE ? 1.0f : ratio;
 }
 
