@@ -42,6 +42,7 @@ std::vector<CrownRecord> make_crowns() {
     crown.to_unit[0] = 1 / radii.x;
     crown.to_unit[5] = 1 / radii.y;
     crown.to_unit[10] = 1 / radii.z;
+    for (int axis = 0; axis < 3; ++axis) crown.to_unit[4 * axis + 3] = radii[axis] * radii[axis];
     crown.volume_scale = radii.x * radii.y * radii.z;
     crown.ambient = 0.9f;
     crown.extinction = 0.4f;

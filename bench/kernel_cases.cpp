@@ -160,7 +160,8 @@ double ellipsoid_cap_reference(const CrownRecord& crown, const BenchFragment& f)
   const Direction offset{double(f.position.x) - double(crown.centre_x), double(f.position.y) - double(crown.centre_y),
                          double(f.position.z) - double(crown.centre_z)};
   const Direction normal{double(f.normal.x), double(f.normal.y), double(f.normal.z)};
-  return ellipsoid_cap(to_unit_sphere(offset, row(0), row(4), row(8)), normal, row(0), row(4), row(8),
+  const Direction squares{double(crown.to_unit[3]), double(crown.to_unit[7]), double(crown.to_unit[11])};
+  return ellipsoid_cap(to_unit_sphere(offset, row(0), row(4), row(8)), normal, row(0), row(4), row(8), squares,
                        double(crown.volume_scale), double(crown.alpha_rho));
 }
 

@@ -17,7 +17,7 @@ constexpr KernelCost costs[] = {
      "each fragment gathers two pairs of heights of the ground and eight numbers at each of four nodes"},
     {"reeves-blau", "fragment", 16, 4, 33, 1, 0, 0, true, ""},
     {"sphere-cap", "fragment", 28, 4, 51, 1, 0, 0, true, ""},
-    {"ellipsoid-cap", "fragment", 28, 4, 110, 1, 0, 0, true, ""},
+    {"ellipsoid-cap", "fragment", 28, 4, 96, 1, 0, 0, true, ""},
     {"shells-cap", "fragment", 28, 4.4, 84, 1, 0, 0, false,
      "five shells are tried one after another; each waits for the comparison before it"},
     {"crown-transmittance", "fragment", 28, 4, 91, 1, 0, 0, false,

@@ -3,6 +3,7 @@
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/crown_field.h"
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/validity.h"
 
@@ -31,15 +32,22 @@ kernel void shade_crown_field(global const float* rest_x, global const float* re
                               uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const whole number = signed_owner_column(owner_field, owner_row(LOAD(owner, i), owners));
+  fetch_planes(rest_x, rest_y, rest_z, i);
+  fetch_planes(normal_x, normal_y, normal_z, i);
+  fetch_plane(owner, i);
+  const bits owners_here = owner_row(LOAD(owner, i), owners);
+  const whole number = signed_owner_column(owner_field, owners_here);
   const truth mine = (number >= 0) & (number < (whole)((int)field_count));
   if (!ANY(mine)) {
     STORE(REAL(1.0), visibility, i);
     return;
   }
-  real low_x = REAL(0.0), low_y = REAL(0.0), low_z = REAL(0.0), scale = REAL(0.0);
-  bits columns = (bits)(1u), rows = (bits)(1u), layers = (bits)(1u), first_cell = (bits)(0u);
-  for (truth left = mine; ANY(left);) {
+  const CrownFieldGrid one = fields[ONE_OWNER(owners_here) ? FIRST_LANE(number) : 0];
+  real low_x = (real)(one.low_x), low_y = (real)(one.low_y), low_z = (real)(one.low_z);
+  real scale = (real)(one.cells_per_metre);
+  bits columns = (bits)(one.columns), rows = (bits)(one.rows), layers = (bits)(one.layers);
+  bits first_cell = (bits)(one.first_cell);
+  for (truth left = ONE_OWNER(owners_here) ? (truth)(0) : mine; ANY(left);) {
     const uint row = next_owner(TO_BITS(number), left);
     const truth lanes = left & (number == (whole)((int)row));
     left &= NOT(lanes);

@@ -4,6 +4,7 @@
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/crown_transmittance.h"
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/validity.h"
 
@@ -35,6 +36,26 @@ SHARED real shell_visibility(global const TransmittanceShell* shell, Direction p
   return v;
 }
 
+/// V of the lanes of one crown, `shells` up to `end`. `outside`: those beyond all of them.
+static inline real shade(global const TransmittanceShell* shells, global const TransmittanceShell* end,
+                         Direction position, Direction normal, PRIVATE truth* outside) {
+#ifdef SKY_DOME
+  const real open = open_dome(normal.z);
+#else
+  const real open = REAL(1.0);
+#endif
+  *outside = ALL_LANES;
+  real product = open;
+  for (global const TransmittanceShell* shell = shells; shell < end; ++shell) {
+    truth out_of_this;
+    const real through = shell_visibility(shell, position, normal, open, &out_of_this);
+    *outside &= out_of_this;
+    product = shell == shells ? through : product * (through / at_least(open, REAL(1e-6)));
+  }
+  if (shells < end) product *= (real)(shells->near_share);
+  return as_visibility(product);
+}
+
 kernel void shade_crown_transmittance(global const float* position_x, global const float* position_y,
                                       global const float* position_z, global const float* normal_x,
                                       global const float* normal_y, global const float* normal_z,
@@ -44,32 +65,29 @@ kernel void shade_crown_transmittance(global const float* position_x, global con
                                       global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const whole crowns_here = signed_owner_column(owner_crown, owner_row(LOAD(owner, i), owners));
+  fetch_planes(position_x, position_y, position_z, i);
+  fetch_planes(normal_x, normal_y, normal_z, i);
+  fetch_plane(owner, i);
+  const bits rows = owner_row(LOAD(owner, i), owners);
+  const Direction position = {LOAD(position_x, i), LOAD(position_y, i), LOAD(position_z, i)};
+  const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
   real v = REAL(1.0);
   truth outside = (truth)(0);
-  for (truth left = (crowns_here >= 0) & (crowns_here < (whole)((int)crown_count)); ANY(left);) {
-    const uint crown = next_owner(TO_BITS(crowns_here), left);
-    const truth lanes = left & (crowns_here == (whole)((int)crown));
-    left &= NOT(lanes);
-    const Direction position = {LOAD(position_x, i), LOAD(position_y, i), LOAD(position_z, i)};
-    const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
-#ifdef SKY_DOME
-    const real open = open_dome(normal.z);
-#else
-    const real open = REAL(1.0);
-#endif
-    const uint begin = first[crown], end = min(first[crown + 1], shell_count);
-    truth out = ALL_LANES;
-    real product = open;
-    for (uint j = begin; j < end; ++j) {
-      truth out_of_this;
-      const real through = shell_visibility(shells + j, position, normal, open, &out_of_this);
-      out &= out_of_this;
-      product = j == begin ? through : product * (through / at_least(open, REAL(1e-6)));
+#define SHADE(crown, out) \
+  shade(shells + first[crown], shells + min(first[(crown) + 1], shell_count), position, normal, out)
+  if (ONE_OWNER(rows)) {
+    const int crown = owner_crown[FIRST_LANE(rows)];
+    if (crown >= 0 && crown < (int)crown_count) v = SHADE(crown, &outside);
+  } else {
+    const whole crowns_here = signed_owner_column(owner_crown, rows);
+    for (truth left = (crowns_here >= 0) & (crowns_here < (whole)((int)crown_count)); ANY(left);) {
+      const uint crown = next_owner(TO_BITS(crowns_here), left);
+      const truth lanes = left & (crowns_here == (whole)((int)crown));
+      left &= NOT(lanes);
+      truth out;
+      v = PICK(lanes, SHADE(crown, &out), v);
+      outside |= lanes & out;
     }
-    if (begin < end) product *= (real)(shells[begin].near_share);
-    v = PICK(lanes, as_visibility(product), v);
-    outside |= lanes & out;
   }
   STORE(v, visibility, i);
   if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);

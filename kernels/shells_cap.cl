@@ -4,6 +4,7 @@
 // multiply, the whole crown's visibility times that of the nearest sphere (the hierarchy that section 5 looks out to).
 // Fragments without a crown get 1. One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/owner_table.h"
 #include "kernels/shared/records.h"
 #include "kernels/shared/sphere_cap.h"
@@ -16,6 +17,9 @@ kernel void shade_shells_cap(global const float* position_x, global const float*
                              uint shell_count, uint items, global float* visibility, global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
+  fetch_planes(position_x, position_y, position_z, i);
+  fetch_planes(normal_x, normal_y, normal_z, i);
+  fetch_plane(owner, i);
   const whole crowns_here = signed_owner_column(owner_crown, owner_row(LOAD(owner, i), owners));
   real v = REAL(1.0);
   truth outside = (truth)(0);

@@ -20,9 +20,12 @@ std::vector<CrownRecord> crown_records(const Pose& pose, const std::string& tree
     record.centre_y = crown.ellipsoid_centre.y;
     record.centre_z = crown.ellipsoid_centre.z;
     record.alpha_rho = tree_method == "ellipsoid-cap" ? crown.alpha_rho_ellipsoid : crown.alpha_rho;
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
+      const float radius = crown.ellipsoid_radii[axis];
       for (int column = 0; column < 3; ++column)
-        record.to_unit[4 * axis + column] = crown.ellipsoid_axes[axis][column] / crown.ellipsoid_radii[axis];
+        record.to_unit[4 * axis + column] = crown.ellipsoid_axes[axis][column] / radius;
+      record.to_unit[4 * axis + 3] = radius * radius;
+    }
     record.volume_scale = crown.ellipsoid_radii.x * crown.ellipsoid_radii.y * crown.ellipsoid_radii.z;
     record.ambient = crown.reeves_blau_ambient;
     record.extinction = crown.reeves_blau_extinction;

@@ -26,13 +26,13 @@ SHARED Direction to_unit_sphere(Direction offset, Direction first, Direction sec
   return unit;
 }
 
-/// V by eq. 6. `volume_scale`: abc, m^3; `alpha_rho`: 1/m^3; `unit`: of to_unit_sphere.
+/// V by eq. 6. `unit`: of to_unit_sphere; `squares`: of the radii along the rows, m^2; `volume_scale`: abc, m^3;
+/// `alpha_rho`: 1/m^3.
 SHARED real ellipsoid_cap(Direction unit, Direction normal, Direction first, Direction second, Direction third,
-                          real volume_scale, real alpha_rho) {
-  // The inverse transpose of rows m_i at right angles has the rows m_i / |m_i|^2.
-  const real a = dot_product(first, normal) / at_least(dot_product(first, first), REAL(1e-30));
-  const real b = dot_product(second, normal) / at_least(dot_product(second, second), REAL(1e-30));
-  const real c = dot_product(third, normal) / at_least(dot_product(third, third), REAL(1e-30));
+                          Direction squares, real volume_scale, real alpha_rho) {
+  // The inverse transpose of rows m_i at right angles has the rows m_i / |m_i|^2, and 1 / |m_i| is the radius along m_i.
+  const real a = squares.x * dot_product(first, normal), b = squares.y * dot_product(second, normal),
+             c = squares.z * dot_product(third, normal);
   const real shrink = REAL(1.0) / sqrt(at_least(fma(a, a, fma(b, b, c * c)), REAL(1e-30)));
   const real occluders =
       volume_scale * cap_occluders(unit.x, unit.y, unit.z, a * shrink, b * shrink, c * shrink, REAL(1.0));

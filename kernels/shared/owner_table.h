@@ -1,6 +1,6 @@
 // What the W fragments of a work-item belong to. Neighbours mostly share an owner, so a column of the owner table costs
-// one look-up for all of them, or one for each. Where a whole record is wanted, kernels go through the distinct rows one
-// by one and read each of them once for all of its lanes:
+// one look-up for all of them, or one for each. Where a whole record is wanted, kernels read it once for ONE_OWNER, else
+// go through the distinct rows one by one and read each of them once for all of its lanes:
 //   for (truth left = ALL_LANES; ANY(left);) {
 //     const uint row = next_owner(rows, left);
 //     const truth lanes = left & (rows == (bits)(row));
@@ -13,6 +13,15 @@
 #include "kernels/shared/real.h"
 
 #define ALL_LANES ((truth)(-1))
+
+/// Whether all lanes hold one owner; it is FIRST_LANE.
+#if W == 1
+#define ONE_OWNER(rows) 1
+#define FIRST_LANE(rows) (rows)
+#else
+#define ONE_OWNER(rows) (!ANY((rows) != (bits)((rows).s0)))
+#define FIRST_LANE(rows) ((rows).s0)
+#endif
 
 /// Row within the table of `owners` rows; a foreign image may name others, which count as the background's.
 SHARED bits owner_row(bits owner, uint owners) { return PICK(owner < (bits)(owners), owner, (bits)(0u)); }
@@ -39,13 +48,8 @@ SHARED uint next_owner(bits rows, truth left) {
 
 /// The column's value for each lane: one look-up where all lanes share an owner, else one per lane.
 SHARED bits owner_column(global const uint* column, bits owner) {
-#if W == 1
-  return column[owner];
-#else
-  const uint first = owner.s0;
-  if (!ANY(owner != (bits)(first))) return (bits)(column[first]);
+  if (ONE_OWNER(owner)) return (bits)(column[FIRST_LANE(owner)]);
   return GATHER(bits, column, owner, );
-#endif
 }
 
 SHARED whole signed_owner_column(global const int* column, bits owner) {

@@ -92,7 +92,7 @@ typedef struct {
   float x, y, z, radius;          // sphere, camera-relative metres
   float centre_x, centre_y, centre_z;  // ellipsoid centre, camera-relative metres
   float alpha_rho;                // 1/m^3, eq. 6
-  float to_unit[12];              // 3x3 rows padded to 4: ellipsoid to unit sphere, 1/m
+  float to_unit[12];              // 3x3 rows, ellipsoid to unit sphere, 1/m; fourth in each: square of its radius, m^2
   float volume_scale;             // abc, m^3
   float ambient;                  // A of Reeves and Blau
   float extinction;               // a of Reeves and Blau, 1/m

@@ -14,7 +14,9 @@ namespace {
 double shared_form(glm::dvec3 p, glm::dvec3 n, const glm::dmat3& axes, glm::dvec3 radii, double alpha_rho) {
   const auto row = [&](int i) { return Direction{axes[i].x / radii[i], axes[i].y / radii[i], axes[i].z / radii[i]}; };
   const Direction unit = to_unit_sphere({p.x, p.y, p.z}, row(0), row(1), row(2));
-  return ellipsoid_cap(unit, {n.x, n.y, n.z}, row(0), row(1), row(2), radii.x * radii.y * radii.z, alpha_rho);
+  const glm::dvec3 squares = radii * radii;
+  return ellipsoid_cap(unit, {n.x, n.y, n.z}, row(0), row(1), row(2), {squares.x, squares.y, squares.z},
+                       radii.x * radii.y * radii.z, alpha_rho);
 }
 
 Shaded shade(const std::vector<TestFragment>& fragments, const std::vector<TestCrown>& crowns) {

@@ -23,8 +23,10 @@ struct TestCrown {
     r.z = r.centre_z = static_cast<float>(centre.z);
     r.radius = static_cast<float>(radius);
     r.alpha_rho = static_cast<float>(alpha_rho);
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < 3; ++k) r.to_unit[4 * axis + k] = static_cast<float>(axes[axis][k] / radii[axis]);
+      r.to_unit[4 * axis + 3] = static_cast<float>(radii[axis] * radii[axis]);
+    }
     r.volume_scale = static_cast<float>(radii.x * radii.y * radii.z);
     r.ambient = static_cast<float>(ambient);
     r.extinction = static_cast<float>(extinction);
