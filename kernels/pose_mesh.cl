@@ -2,6 +2,7 @@
 // then the limb's rigid transform (records.h, LimbPose). One work-item poses W vertices of one block of 16.
 // With -DTHINNED the leaves of each block are first enlarged about their middles.
 #pragma OPENCL FP_CONTRACT OFF
+#include "kernels/shared/fetch_ahead.h"
 #include "kernels/shared/pose_limb.h"
 #include "kernels/shared/posed_vertices.h"
 #include "kernels/shared/records.h"
@@ -23,6 +24,13 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   const size_t rest = (size_t)block.rest_block * per_block + i % per_block;
   global const LimbPose* limb = limbs + block.limb_pose;
 
+  fetch_planes(rest_x, rest_y, rest_z, rest);
+  if (i % 4 == 0) {  // a line of bytes holds four work-items
+    fetch_bytes(flutter_x, rest);
+    fetch_bytes(flutter_y, rest);
+    fetch_bytes(flutter_z, rest);
+    fetch_bytes(flutter_phase, rest);
+  }
   real px = LOAD(rest_x, rest), py = LOAD(rest_y, rest), pz = LOAD(rest_z, rest);
 #ifdef THINNED
   const real scale = (real)(block_scale[i / per_block]);
@@ -31,7 +39,8 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   py = fma(scale, py - my, my);
   pz = fma(scale, pz - mz, mz);
 #endif
-  const real turns = LOAD_BYTE(flutter_phase, rest) * REAL(0.00390625) + (real)(limb->flutter_phase * 0.15915494f);
+  const real turns =
+      fma(LOAD_BYTE(flutter_phase, rest), REAL(0.00390625), (real)(limb->flutter_phase * 0.15915494f));
   const real swing = (real)(limb->flutter_amplitude) * sine_of_turns(turns);
   px = fma(LOAD_BYTE(flutter_x, rest), swing, px);
   py = fma(LOAD_BYTE(flutter_y, rest), swing, py);
@@ -39,5 +48,5 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
 
   pose_on_limb(limb->to_limb, limb->curvature, limb->to_scene, &px, &py, &pz);
   const PosedLanes lanes = {px, py, pz};
-  store_posed(lanes, posed, i * W);
+  store_records(posed_records(lanes), posed, i * W);
 }

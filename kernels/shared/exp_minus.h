@@ -6,6 +6,7 @@
 #define UNDERSTORY_EXP_MINUS_H
 
 #include "kernels/shared/limits.h"
+#include "kernels/shared/rounded.h"
 
 #ifndef __OPENCL_C_VERSION__
 namespace understory {
@@ -17,15 +18,6 @@ SHARED real power_of_two(real n) {
   return AS_REAL((TO_WHOLE(n) + 127) << 23);
 #else
   return std::exp2(n);
-#endif
-}
-
-/// The nearest whole number for |t| < 2^22, by the rounding of an addition: floor is ten instructions on vectors in PoCL.
-SHARED real rounded(real t) {
-#ifdef __OPENCL_C_VERSION__
-  return (t + REAL(12582912.0)) - REAL(12582912.0);
-#else
-  return std::nearbyint(t);
 #endif
 }
 

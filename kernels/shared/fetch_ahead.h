@@ -25,6 +25,13 @@ static inline void fetch_plane(global const void* plane, size_t i) {
 #endif
 }
 
+/// The same of a plane of bytes.
+static inline void fetch_bytes(global const void* plane, size_t i) {
+#if W > 1
+  fetch_ahead((global const char*)plane + i * W + FETCH_DISTANCE);
+#endif
+}
+
 static inline void fetch_planes(global const void* x, global const void* y, global const void* z, size_t i) {
   fetch_plane(x, i);
   fetch_plane(y, i);

@@ -32,15 +32,15 @@ typedef struct {
 /// `x`, `y`: root relative to the scene's origin, m. In float, `sample` is within 0.1 at 10 km in wind above 1 m/s.
 SHARED GrassGust grass_gust(const GrassWind wind, real x, real y) {
   const real dx = (real)(wind.direction_x), dy = (real)(wind.direction_y);
-  const real along = x * dx + y * dy, cross = y * dx - x * dy;
+  const real along = fma(x, dx, y * dy), cross = fma(y, dx, -x * dy);
   const real turns = TURNS_PER_RADIAN / (real)(wind.lateral_scale);
   const real a = along * turns, c = cross * turns;
-  const real wave = sine_of_turns(c + REAL(0.3) * a) +
-                    REAL(0.5) * sine_of_turns(REAL(1.7) * c - REAL(0.25) * a + REAL(0.20690142601946396));
-  const real delay = (real)(wind.slowness) * along + (real)(wind.lateral_delay) * wave;
+  const real second = sine_of_turns(fma(REAL(1.7), c, fma(REAL(-0.25), a, REAL(0.20690142601946396))));
+  const real wave = fma(REAL(0.5), second, sine_of_turns(fma(REAL(0.3), a, c)));
+  const real delay = fma((real)(wind.slowness), along, (real)(wind.lateral_delay) * wave);
   GrassGust gust;
-  gust.sample = (real)(wind.sample_time) - (real)(wind.series_rate) * delay;
-  gust.first_share = sine_of_turns(REAL(0.5) * c + REAL(0.25));
+  gust.sample = fma(-(real)(wind.series_rate), delay, (real)(wind.sample_time));
+  gust.first_share = sine_of_turns(fma(REAL(0.5), c, REAL(0.25)));
   gust.second_share = sine_of_turns(REAL(0.5) * c);
   return gust;
 }
@@ -51,14 +51,14 @@ SHARED GrassBend grass_bend(const GrassWind wind, real gust_along, real gust_acr
                             real flexibility, real phase) {
   const real now = (real)(wind.flutter_phase) * TURNS_PER_RADIAN, own = phase * TURNS_PER_RADIAN;
   const real amplitude = (real)(wind.flutter_amplitude);
-  const real along = flexibility * ((real)(wind.mean_bend) + gust_along + amplitude * sine_of_turns(now + own));
-  const real across = flexibility * (gust_across + amplitude * sine_of_turns(now + REAL(3.0) * own));
+  const real along = flexibility * fma(amplitude, sine_of_turns(now + own), (real)(wind.mean_bend) + gust_along);
+  const real across = flexibility * fma(amplitude, sine_of_turns(fma(REAL(3.0), own, now)), gust_across);
   // Smooth limit b / sqrt(1 + (b / 1.5)^2): slope 1 at rest, a blade in a storm lies down and does not roll up.
-  const real limited = REAL(1.0) / sqrt(REAL(1.0) + (along * along + across * across) * REAL(0.4444444444444444));
+  const real limited = REAL(1.0) / sqrt(fma(fma(along, along, across * across), REAL(0.4444444444444444), REAL(1.0)));
   const real dx = (real)(wind.direction_x), dy = (real)(wind.direction_y);
   GrassBend bend;
-  bend.x = rest_x + limited * (along * dx - across * dy);
-  bend.y = rest_y + limited * (along * dy + across * dx);
+  bend.x = fma(limited, fma(along, dx, -across * dy), rest_x);
+  bend.y = fma(limited, fma(along, dy, across * dx), rest_y);
   return bend;
 }
 

@@ -15,7 +15,7 @@ typedef struct {
 
 /// The midline at `share` of the blade's length [0, 1]. `bend_x`, `bend_y`: radians, |bend| <= 2.5.
 SHARED BladePoint blade_midline(real length, real bend_x, real bend_y, real share) {
-  const real angle_squared = (bend_x * bend_x + bend_y * bend_y) * (share * share);
+  const real angle_squared = fma(bend_x, bend_x, bend_y * bend_y) * (share * share);
   const real arc = length * share;
   // Sideways (1 - cos f) / f along the bend, up sin(f) / f, f the angle reached here.
   const real sideways = arc * share * arc_versine(angle_squared);

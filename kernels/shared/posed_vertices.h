@@ -49,17 +49,50 @@ static inline PosedLanes load_posed(global const float4* posed, uint vertex) {
   return transposed(RECORDS(0, 4, 8, 12), RECORDS(1, 5, 9, 13), RECORDS(2, 6, 10, 14), RECORDS(3, 7, 11, 15));
 }
 
-static inline void store_posed(PosedLanes lanes, global float4* posed, size_t vertex) {
+// Four vectors of four records: lanes 0 to 3, 4 to 7, and so on.
+typedef struct {
+  float16 first, second, third, fourth;
+} PosedRecords;
+
+// With every fourth lane side by side, the transpositions of the quarters leave records in the order of the lanes.
+static inline float16 every_fourth(float16 p) { return (float16)(p.s048c, p.s159d, p.s26ae, p.s37bf); }
+
+static inline PosedRecords posed_records(PosedLanes lanes) {
   const float16 none = (float16)(0.0f);
-  const float16 xy_first = quarters_first(lanes.x, lanes.y), xy_last = quarters_last(lanes.x, lanes.y);
-  const float16 z_first = quarters_first(lanes.z, none), z_last = quarters_last(lanes.z, none);
-  const float16 r0 = halves_first(xy_first, z_first), r1 = halves_last(xy_first, z_first);
-  const float16 r2 = halves_first(xy_last, z_last), r3 = halves_last(xy_last, z_last);
-  global float* at = (global float*)(posed + vertex);
-  vstore16((float16)(r0.s0123, r1.s0123, r2.s0123, r3.s0123), 0, at);
-  vstore16((float16)(r0.s4567, r1.s4567, r2.s4567, r3.s4567), 1, at);
-  vstore16((float16)(r0.s89ab, r1.s89ab, r2.s89ab, r3.s89ab), 2, at);
-  vstore16((float16)(r0.scdef, r1.scdef, r2.scdef, r3.scdef), 3, at);
+  const float16 x = every_fourth(lanes.x), y = every_fourth(lanes.y), z = every_fourth(lanes.z);
+  const float16 xy_first = quarters_first(x, y), xy_last = quarters_last(x, y);
+  const float16 z_first = quarters_first(z, none), z_last = quarters_last(z, none);
+  PosedRecords records;
+  records.first = halves_first(xy_first, z_first);
+  records.second = halves_last(xy_first, z_first);
+  records.third = halves_first(xy_last, z_last);
+  records.fourth = halves_last(xy_last, z_last);
+  return records;
+}
+
+static inline PosedRecords moved_by(PosedRecords from, float share, PosedRecords way) {
+  PosedRecords to;
+  to.first = fma((real)(share), way.first, from.first);
+  to.second = fma((real)(share), way.second, from.second);
+  to.third = fma((real)(share), way.third, from.third);
+  to.fourth = fma((real)(share), way.fourth, from.fourth);
+  return to;
+}
+
+// All that is posed is more than caches hold: stores past them spare the reading of what is overwritten. `vertex` is a
+// multiple of 16, and OpenCL aligns buffers for any vector.
+#if __has_builtin(__builtin_nontemporal_store)
+#define STORE_PAST_CACHES(value, place) __builtin_nontemporal_store(value, place)
+#else
+#define STORE_PAST_CACHES(value, place) *(place) = (value)
+#endif
+
+static inline void store_records(PosedRecords records, global float4* posed, size_t vertex) {
+  global float16* at = (global float16*)(posed + vertex);
+  STORE_PAST_CACHES(records.first, at);
+  STORE_PAST_CACHES(records.second, at + 1);
+  STORE_PAST_CACHES(records.third, at + 2);
+  STORE_PAST_CACHES(records.fourth, at + 3);
 }
 
 #else
@@ -88,12 +121,24 @@ static inline PosedLanes load_posed(global const float4* posed, uint vertex) {
   return lanes;
 }
 
-static inline void store_posed(PosedLanes lanes, global float4* posed, size_t vertex) {
+typedef PosedLanes PosedRecords;
+
+static inline PosedRecords posed_records(PosedLanes lanes) { return lanes; }
+
+static inline PosedRecords moved_by(PosedRecords from, float share, PosedRecords way) {
+  PosedRecords to;
+  to.x = fma((real)(share), way.x, from.x);
+  to.y = fma((real)(share), way.y, from.y);
+  to.z = fma((real)(share), way.z, from.z);
+  return to;
+}
+
+static inline void store_records(PosedRecords records, global float4* posed, size_t vertex) {
  private
   float x[W], y[W], z[W];
-  STORE(lanes.x, x, 0);
-  STORE(lanes.y, y, 0);
-  STORE(lanes.z, z, 0);
+  STORE(records.x, x, 0);
+  STORE(records.y, y, 0);
+  STORE(records.z, z, 0);
   for (uint lane = 0; lane < W; ++lane) posed[vertex + lane] = (float4)(x[lane], y[lane], z[lane], 0.0f);
 }
 #endif

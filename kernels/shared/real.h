@@ -48,7 +48,7 @@ typedef JOIN(uint, W) bits;
 #define ANY(condition) any_lane(condition)
 #define LOAD(plane, i) load_lanes(i, plane)
 #define STORE(value, plane, i) store_lanes(value, i, plane)
-#define LOAD_BYTE(plane, i) JOIN(convert_float, W)(JOIN(vload, W)(i, plane))
+#define LOAD_BYTE(plane, i) JOIN(convert_float, W)(load_bytes(i, plane))
 #define AS_REAL(value) JOIN(as_float, W)(value)
 #define TO_WHOLE(value) JOIN(convert_int, W)(value)
 #define TO_REAL(value) JOIN(convert_float, W)(value)
@@ -88,9 +88,18 @@ typedef JOIN(uint, W) bits;
 LANES_OF(float, real)
 LANES_OF(int, whole)
 LANES_OF(uint, bits)
+
+#define BYTES_OF(element)                                                                                 \
+  typedef JOIN(element, W) JOIN(loose_, element) __attribute__((aligned(1)));                             \
+  SHARED JOIN(element, W) __attribute__((overloadable)) load_bytes(size_t i, global const element* plane) { \
+    return *(global const JOIN(loose_, element)*)(plane + i * W);                                         \
+  }
+BYTES_OF(char)
+BYTES_OF(uchar)
 #else
 #define load_lanes JOIN(vload, W)
 #define store_lanes JOIN(vstore, W)
+#define load_bytes JOIN(vload, W)
 #endif
 
 #ifndef __has_builtin
