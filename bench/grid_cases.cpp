@@ -59,9 +59,10 @@ double reference(const BenchFragments& all, const BenchFragment& f, bool cone) {
     const OccludedDirections o = occluded_at(ball_grid(), p);
     const bool own = ball.group == all.owner_rows()[f.owner].group;
     double blocked = own ? std::max(2 * double(o.share) - 1, 0.0) : std::min(2 * double(o.share), 1.0);
+    if (cone && own) continue;  // balls have no shadow of their own
     if (cone) {
       const Occluded here = {double(o.share), double(o.direction.x), double(o.direction.y), double(o.direction.z)};
-      const Cone c = own ? opaque_cone(here) : spread_cone(here);
+      const Cone c = spread_cone(here);
       const double cosine = glm::dot(glm::dvec3(c.x, c.y, c.z), glm::dvec3(f.normal));
       blocked = c.opacity * clip_cosine(c.aperture, cosine);
     }

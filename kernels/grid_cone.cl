@@ -1,8 +1,9 @@
 // `grid-cone`: the cone of directions that each body near a fragment occludes, looked up in its grid, clipped by the
-// fragment's tangent plane and put together with the others' (Malmer et al. 2005 section 5). V_c. A body's own fragments
-// need no rule of their own: what it occludes below their plane is clipped away.
+// fragment's tangent plane and put together with the others' (Malmer et al. 2005 section 5). V_c. What a body takes from
+// its own surface, sim/own_shadow.hpp, is a factor of its own: convex bodies take nothing. -DPAPER_CONE: every cone is
+// opaque, as in the paper, and clips itself on its own body.
 // -DCOMBINE=multiply, simple or merge (shared/running_cone.h); -DUNION: V is what the cones leave of some directions
-// (shared/seen_directions.h), whatever the running cone is. -DPAPER_CONE: every cone is opaque, as in the paper.
+// (shared/seen_directions.h), whatever the running cone is.
 // -DCONES: stores the running cone as well, for the light of an environment (section 5.3).
 // One work-item per W fragments; planes are padded (host/passes/planes.hpp).
 #pragma OPENCL FP_CONTRACT OFF
@@ -14,19 +15,11 @@
 #include "kernels/shared/tile_grids.h"
 #include "kernels/shared/validity.h"
 
-/// On the body's own surface, directions of opposite sides average out between samples: only the opaque cone keeps the
-/// surface's own hemisphere below its plane.
-SHARED Cone cone_for(const Occluded o, truth own) {
 #ifdef PAPER_CONE
-  (void)own;
-  return opaque_cone(o);
+#define cone_of opaque_cone
 #else
-  Cone cone = spread_cone(o);
-  cone.aperture = PICK(own, o.share, cone.aperture);
-  cone.opacity = PICK(own, REAL(1.0), cone.opacity);
-  return cone;
+#define cone_of spread_cone
 #endif
-}
 
 #ifdef CONES
 #define CONE_PLANES                                                                                                   \
@@ -74,14 +67,19 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
   RunningCone running = no_cone();
   SEE_ALL(a, b, c);
   truth border = (truth)(0);
+  real own_shadow = REAL(0.0);
   for (uint j = 0; j < here.count; ++j) {
     global const GridRecord* grid = grids + grid_of_tile(here, lists, j);
     const GridPoint p = grid_point(grid, x, y, z);
-    const truth inside = p.inside & drawn;
+    truth inside = p.inside & drawn;
+#ifndef PAPER_CONE
+    const truth own = inside & (group == (whole)(grid->group)) & (group >= 0);
+    if (grid->own_size != 0 && ANY(own))
+      own_shadow = PICK(own, look_up_own(grid, samples, x, y, z, a, b, c), own_shadow);
+    inside &= ~own;
+#endif
     if (!ANY(inside)) continue;
-    const truth own = (group == (whole)(grid->group)) & (group >= 0);
-    const Occluded o = to_world(grid, look_up_cone(grid, samples, p));
-    const Cone cone = cone_for(o, own);
+    const Cone cone = cone_of(to_world(grid, look_up_cone(grid, samples, p)));
     const RunningCone next = clip_cone(cone, a, b, c);
     const truth some = inside & (next.cosine > REAL(1e-6));
     COVER(cone, PICK(some, next.cosine, REAL(0.0)));
@@ -90,9 +88,8 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
     running = pick_cone(some, both, running);
     border |= p.border & drawn;
   }
-  const real v = VISIBILITY(running);
-  const real open = PICK(drawn, as_visibility(v), REAL(1.0));
-  STORE(open, visibility, i);
-  STORE_CONE(running, REAL(1.0) - open);
+  const real v = PICK(drawn, as_visibility(VISIBILITY(running)), REAL(1.0));
+  STORE(v * (REAL(1.0) - own_shadow), visibility, i);
+  STORE_CONE(running, REAL(1.0) - v);
   if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "host/trace/grid_cache.hpp"
+#include "host/trace/own_shadow_bake.hpp"
 #include "sim/error.hpp"
 
 namespace understory {
@@ -111,14 +112,24 @@ OccluderGrids::OccluderGrids(Device& device, const World& world, const Methods& 
   const DifferentMeshes found = find_different(meshes);
   const GridSettings settings = settings_of(methods, cone);
   std::vector<OcclusionGrid> grids(found.different.size());
+  std::vector<OwnShadow> own(found.different.size());
   tbb::parallel_for(std::size_t(0), grids.size(), [&](std::size_t g) {
-    grids[g] = cached_grid(found.different[g]->vertices, found.different[g]->triangles, settings);
+    const LimbMesh& mesh = *found.different[g];
+    grids[g] = cached_grid(mesh.vertices, mesh.triangles, settings);
+    if (methods.occluders == "grid-cone")  // other methods have the paper's rules for a body's own surface
+      own[g] = cached_own_shadow(mesh.vertices, mesh.triangles, std::max(settings.rays / 4, 16u), settings.seed);
   });
   std::vector<std::uint8_t> samples;
   std::vector<std::uint32_t> first;
   for (const OcclusionGrid& grid : grids) {
     first.push_back(static_cast<std::uint32_t>(samples.size() / (cone ? 4 : 1)));
     const std::vector<std::uint8_t> packed = cone ? packed_cone(grid) : packed_share(grid);
+    samples.insert(samples.end(), packed.begin(), packed.end());
+  }
+  std::vector<std::uint32_t> first_own;
+  for (const OwnShadow& shadow : own) {
+    first_own.push_back(static_cast<std::uint32_t>(samples.size() / 4));
+    const std::vector<std::uint8_t> packed = packed_own_shadow(shadow);
     samples.insert(samples.end(), packed.begin(), packed.end());
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -133,6 +144,11 @@ OccluderGrids::OccluderGrids(Device& device, const World& world, const Methods& 
     part.record.border = grid.border;
     part.record.stretch = grid.stretch;
     part.record.faded_from = faded_from(grid);
+    const OwnShadow& shadow = own[found.grid[p]];
+    part.record.own_first = first_own[found.grid[p]];
+    part.record.own_size = shadow.size;
+    for (int axis = 0; shadow.size > 0 && axis < 3; ++axis)
+      part.record.own_scale[axis] = (grid.high[axis] - grid.low[axis]) / (shadow.high[axis] - shadow.low[axis]);
   }
   table_ = std::make_unique<GridTable>(device, samples);
   if (cone && cone_fragments > 0) cones_ = std::make_unique<ConePlanes>(allocate_cones(device, cone_fragments));

@@ -52,13 +52,26 @@ std::vector<glm::vec2> ordered_points(std::uint32_t count, std::uint64_t seed) {
   return points;
 }
 
-/// The rays of one sample: all directions within the body's bounding sphere, the whole sphere of them inside it.
+/// The rays of one sample: all directions within the body's bounding sphere, the whole sphere of them inside it. A sample
+/// within the solid gets what the nearest point of the surface sees: receivers beside it lie between such samples.
 class SampleTracer {
  public:
   SampleTracer(const Tracer& tracer, const Ball& ball, const std::vector<glm::vec2>& points, std::uint64_t seed)
-      : tracer_(tracer), ball_(ball), points_(points), seed_(seed), rays_(points.size()), blocked_(points.size()) {}
+      : tracer_(tracer),
+        ball_(ball),
+        points_(points),
+        seed_(seed),
+        rays_(points.size()),
+        blocked_(points.size()),
+        hits_(points.size()) {}
 
   OccludedDirections operator()(const glm::vec3& position, std::size_t index) {
+    const OccludedDirections here = trace_from(position, index);
+    return here.share < 1 ? here : trace_from(beside_surface(position), index);
+  }
+
+ private:
+  OccludedDirections trace_from(const glm::vec3& position, std::size_t index) {
     const glm::vec3 to_centre = ball_.centre - position;
     const float distance = glm::length(to_centre), ratio = ball_.radius / distance;
     const bool outside = ratio < 1;
@@ -80,13 +93,22 @@ class SampleTracer {
     return {static_cast<float>(weight * double(hits)), glm::vec3(weight * sum)};
   }
 
- private:
+  /// Just beyond the nearest surface that the last rays met; all of them met some.
+  glm::vec3 beside_surface(const glm::vec3& position) {
+    tracer_.nearest(rays_, hits_);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < hits_.size(); ++i)
+      if (hits_[i].distance < hits_[nearest].distance) nearest = i;
+    return position + (hits_[nearest].distance + 1e-3f * ball_.radius) * rays_[nearest].direction;
+  }
+
   const Tracer& tracer_;
   const Ball& ball_;
   const std::vector<glm::vec2>& points_;
   std::uint64_t seed_;
   std::vector<Ray> rays_;
   std::vector<std::uint8_t> blocked_;
+  std::vector<Hit> hits_;
 };
 
 void trace(OcclusionGrid& grid, const Tracer& tracer, const Ball& ball, const GridSettings& settings) {

@@ -13,11 +13,15 @@ typedef struct {
   truth border;   // inside, but so near a face that occlusion has been faded
 } GridPoint;
 
+/// A component of a vector times a row of 4.
+SHARED real grid_row(const global float* m, real x, real y, real z, real constant) {
+  return fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), constant)));
+}
+
 SHARED GridPoint grid_point(global const GridRecord* grid, real x, real y, real z) {
   const global float* m = grid->to_box;
-  const real u = fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), (real)(m[3]))));
-  const real v = fma(x, (real)(m[4]), fma(y, (real)(m[5]), fma(z, (real)(m[6]), (real)(m[7]))));
-  const real w = fma(x, (real)(m[8]), fma(y, (real)(m[9]), fma(z, (real)(m[10]), (real)(m[11]))));
+  const real u = grid_row(m, x, y, z, (real)(m[3])), v = grid_row(m + 4, x, y, z, (real)(m[7]));
+  const real w = grid_row(m + 8, x, y, z, (real)(m[11]));
   const real far_u = fabs(u), far_v = fabs(v), far_w = fabs(w);
   GridPoint p;
   p.inside = (far_u <= REAL(1.0)) & (far_v <= REAL(1.0)) & (far_w <= REAL(1.0));
@@ -48,23 +52,37 @@ SHARED real grid_cell(real at, uint size, private real* part) {
   return cell;
 }
 
-SHARED void grid_cells(global const GridRecord* grid, const GridPoint p, private GridCells* cells) {
+/// Samples of a table: where they begin, and how many along each axis.
+typedef struct {
+  uint first, width, height, depth;
+} GridSamples;
+
+SHARED GridSamples samples_of(global const GridRecord* grid) {
+  const GridSamples samples = {grid->first, grid->width, grid->height, grid->depth};
+  return samples;
+}
+
+SHARED void grid_cells(const GridSamples of, real at_x, real at_y, real at_z, private GridCells* cells) {
   real x, y, z;
-  const bits i = TO_BITS(grid_cell(p.x, grid->width, &x)), j = TO_BITS(grid_cell(p.y, grid->height, &y));
-  const bits k = TO_BITS(grid_cell(p.z, grid->depth, &z));
-  const bits sample = ((k * (bits)(grid->height) + j) * (bits)(grid->width) + i) + (bits)(grid->first);
+  const bits i = TO_BITS(grid_cell(at_x, of.width, &x)), j = TO_BITS(grid_cell(at_y, of.height, &y));
+  const bits k = TO_BITS(grid_cell(at_z, of.depth, &z));
+  const bits sample = ((k * (bits)(of.height) + j) * (bits)(of.width) + i) + (bits)(of.first);
   STORE(sample, cells->sample, 0);
   STORE(x, cells->x, 0);
   STORE(y, cells->y, 0);
   STORE(z, cells->z, 0);
 }
 
-/// Share and mean direction, in the body's frame; `samples`: four bytes each.
-SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+/// Four bytes a sample, as they are: [0, 255].
+typedef struct {
+  real x, y, z, w;
+} FourBytes;
+
+SHARED FourBytes look_up_four(const GridSamples of, global const uchar* samples, real at_x, real at_y, real at_z) {
   GridCells cells;
-  grid_cells(grid, p, &cells);
-  const size_t row = 4 * (size_t)grid->width, slab = row * grid->height;
-  float share[W], x[W], y[W], z[W];
+  grid_cells(of, at_x, at_y, at_z, &cells);
+  const size_t row = 4 * (size_t)of.width, slab = row * of.height;
+  float x[W], y[W], z[W], w[W];
   for (int lane = 0; lane < W; ++lane) {
     global const uchar* corner = samples + 4 * (size_t)cells.sample[lane];
     const float8 a = convert_float8(vload8(0, corner)), b = convert_float8(vload8(0, corner + row));
@@ -76,21 +94,45 @@ SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* 
     x[lane] = mean.x;
     y[lane] = mean.y;
     z[lane] = mean.z;
-    share[lane] = mean.w;
+    w[lane] = mean.w;
   }
+  const FourBytes mean = {LOAD(x, 0), LOAD(y, 0), LOAD(z, 0), LOAD(w, 0)};
+  return mean;
+}
+
+/// Share and mean direction, in the body's frame; `samples`: packed_cone.
+SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+  const FourBytes mean = look_up_four(samples_of(grid), samples, p.x, p.y, p.z);
   const real scale = REAL(1.9685039370078740e-3);  // 1/(4 127)
-  Occluded o;
-  o.share = LOAD(share, 0) * REAL(3.9215686274509804e-3);  // 1/255
-  o.x = (LOAD(x, 0) - REAL(128.0)) * scale;
-  o.y = (LOAD(y, 0) - REAL(128.0)) * scale;
-  o.z = (LOAD(z, 0) - REAL(128.0)) * scale;
+  const Occluded o = {mean.w * REAL(3.9215686274509804e-3),  // 1/255
+                      (mean.x - REAL(128.0)) * scale, (mean.y - REAL(128.0)) * scale, (mean.z - REAL(128.0)) * scale};
   return o;
+}
+
+/// Share of V_c that a body with an own shadow takes from its own surface at (x, y, z), unit normal (a, b, c); [0, 1].
+SHARED real look_up_own(global const GridRecord* grid, global const uchar* samples, real x, real y, real z, real a,
+                        real b, real c) {
+  const global float* m = grid->to_box;
+  const GridSamples of = {grid->own_first, grid->own_size, grid->own_size, grid->own_size};
+  const float middle = 0.5f * ((float)grid->own_size - 1.0f);
+  const real along = grid_row(m, x, y, z, (real)(m[3])), across = grid_row(m + 4, x, y, z, (real)(m[7]));
+  const real up = grid_row(m + 8, x, y, z, (real)(m[11]));
+  const FourBytes fit = look_up_four(of, samples, fma(along, (real)(grid->own_scale[0] * middle), (real)(middle)),
+                                     fma(across, (real)(grid->own_scale[1] * middle), (real)(middle)),
+                                     fma(up, (real)(grid->own_scale[2] * middle), (real)(middle)));
+  // What the four numbers mean: sim/own_shadow.hpp. The normal in the body's frame, then (n - 128) / 127 for each.
+  m = grid->axes;
+  const real u = fma(a, (real)(m[0]), fma(b, (real)(m[4]), c * (real)(m[8])));
+  const real v = fma(a, (real)(m[1]), fma(b, (real)(m[5]), c * (real)(m[9])));
+  const real w = fma(a, (real)(m[2]), fma(b, (real)(m[6]), c * (real)(m[10])));
+  const real sum = fma(fit.x - REAL(128.0), u, fma(fit.y - REAL(128.0), v, fma(fit.z - REAL(128.0), w, fit.w - REAL(128.0))));
+  return at_most(at_least(sum * REAL(7.8740157480314961e-3), REAL(0.0)), REAL(1.0));
 }
 
 /// Share of a scalar grid; `samples`: one byte each.
 SHARED real look_up_share(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
   GridCells cells;
-  grid_cells(grid, p, &cells);
+  grid_cells(samples_of(grid), p.x, p.y, p.z, &cells);
   const size_t row = grid->width, slab = row * grid->height;
   float share[W];
   for (int lane = 0; lane < W; ++lane) {

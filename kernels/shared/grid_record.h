@@ -21,10 +21,13 @@ typedef struct {
   float border;                     // M of the border's rescale (sim/occlusion_grid.hpp)
   float stretch;                    // >= 0: how samples crowd about the box's middle (sim/occlusion_grid.hpp)
   float faded_from;                 // |u| along an axis of the box from which occlusion has been faded
-} GridRecord;                       // 128 bytes
+  grid_uint own_first, own_size;    // its own shadow (sim/own_shadow.hpp): first sample, samples per axis or 0: it has none
+  float own_scale[3];               // half-extents of the box by those of the own shadow's
+  float padding_[3];
+} GridRecord;                       // 160 bytes
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(GridRecord) == 128);
+static_assert(sizeof(GridRecord) == 160);
 }  // namespace understory
 #endif
 #endif

@@ -38,7 +38,8 @@
   field(GroundCoverGrid, padding_) record(GroundCoverGrid)                                                          \
   field(GridRecord, to_box) field(GridRecord, axes) field(GridRecord, first) field(GridRecord, width)              \
   field(GridRecord, height) field(GridRecord, depth) field(GridRecord, group) field(GridRecord, border)             \
-  field(GridRecord, stretch) field(GridRecord, faded_from) record(GridRecord)                                                                    \
+  field(GridRecord, stretch) field(GridRecord, faded_from) field(GridRecord, own_first)                            \
+  field(GridRecord, own_size) field(GridRecord, own_scale) field(GridRecord, padding_) record(GridRecord)            \
   field(TileOcclusion, level) field(TileOcclusion, x) field(TileOcclusion, y) field(TileOcclusion, z)               \
   field(TileOcclusion, xx) field(TileOcclusion, yy) field(TileOcclusion, zz) field(TileOcclusion, xy)               \
   field(TileOcclusion, xz) field(TileOcclusion, yz) field(TileOcclusion, distant) field(TileOcclusion, close)       \

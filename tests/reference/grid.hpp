@@ -36,7 +36,22 @@ inline double grid_blocked(const GridBody& body, const TestFragment& f, bool own
   return self_share * std::clamp(2 * traced - 1, 0.0, 1.0);
 }
 
-/// What one body takes from a fragment by its clipped cone. `paper`: an opaque one, as for the body's own fragments.
+/// What one body takes from a fragment of its own, by sim/own_shadow.hpp.
+inline double own_blocked(const GridBody& body, const TestFragment& f) {
+  if (body.own.size == 0) return 0;
+  const glm::dmat3 to_body = glm::transpose(body.rotation);
+  return double(own_share(unpacked(body.own, packed_own_shadow(body.own)),
+                          to_body * (glm::dvec3(f.position) - body.position), to_body * glm::dvec3(f.normal)));
+}
+
+/// Whether the body's grid holds a fragment.
+inline bool holds(const GridBody& body, const TestFragment& f) {
+  const glm::dvec3 p = glm::transpose(body.rotation) * (glm::dvec3(f.position) - body.position);
+  return glm::all(glm::lessThanEqual(glm::dvec3(body.grid.low), p)) &&
+         glm::all(glm::lessThanEqual(p, glm::dvec3(body.grid.high)));
+}
+
+/// What one body takes from a fragment by its clipped cone. `paper`: an opaque one.
 inline double cone_blocked(const GridBody& body, const TestFragment& f, bool paper) {
   const OccludedDirections o = look_up(body, f, true);
   const glm::dvec3 mean = body.rotation * glm::dvec3(o.direction);

@@ -6,17 +6,19 @@
 
 #include "host/passes/tile_grids.hpp"
 #include "sim/occlusion_grid.hpp"
+#include "sim/own_shadow.hpp"
 #include "tests/support/test_fragments.hpp"
 
 namespace understory {
 
 struct GridBody {
   OcclusionGrid grid;
+  OwnShadow own;  // of size 0: it has none
   glm::dmat3 rotation{1};
   glm::dvec3 position{0};
   std::int32_t group = -1;
 
-  GridRecord record(std::uint32_t first) const {
+  GridRecord record(std::uint32_t first, std::uint32_t first_own = 0) const {
     GridRecord r{};
     const glm::dmat3 to_body = glm::transpose(rotation);
     for (int row = 0; row < 3; ++row) {
@@ -37,6 +39,10 @@ struct GridBody {
     r.border = grid.border;
     r.stretch = grid.stretch;
     r.faded_from = faded_from(grid);
+    r.own_first = first_own;
+    r.own_size = own.size;
+    for (int axis = 0; own.size > 0 && axis < 3; ++axis)
+      r.own_scale[axis] = (grid.high[axis] - grid.low[axis]) / (own.high[axis] - own.low[axis]);
     return r;
   }
 };
@@ -46,9 +52,13 @@ inline GridTable upload_grids(Device& device, const std::vector<GridBody>& bodie
   std::vector<std::uint8_t> samples;
   std::vector<GridRecord> records;
   for (const GridBody& body : bodies) {
-    records.push_back(body.record(static_cast<std::uint32_t>(samples.size() / (cone ? 4 : 1))));
+    const std::size_t first = samples.size() / (cone ? 4 : 1);
     const std::vector<std::uint8_t> packed = cone ? packed_cone(body.grid) : packed_share(body.grid);
     samples.insert(samples.end(), packed.begin(), packed.end());
+    records.push_back(body.record(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(samples.size() / 4)));
+    if (!cone) continue;
+    const std::vector<std::uint8_t> own = packed_own_shadow(body.own);
+    samples.insert(samples.end(), own.begin(), own.end());
   }
   if (samples.empty()) samples.resize(8);
   GridTable table(device, samples);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/trace/grid_bake.hpp"
+#include "host/trace/own_shadow_bake.hpp"
 #include "sim/shapes.hpp"
 #include "tests/support/fragments.hpp"
 #include "tests/support/grid_bodies.hpp"
@@ -42,7 +43,8 @@ inline GridSettings coarse(GridSize size = {9, 10, 11}) {
   return settings;
 }
 
-/// Some bodies near the origin, turned any way, of groups 0, 1, ...; the table's samples crowd about its middle.
+/// Some bodies near the origin, turned any way, of groups 0, 1, ...; the table's samples crowd about its middle, and it
+/// alone shades itself.
 inline std::vector<GridBody> random_bodies(std::size_t count, GridBorder border = GridBorder::fade) {
   GridSettings settings = coarse();
   settings.border = border;
@@ -52,11 +54,13 @@ inline std::vector<GridBody> random_bodies(std::size_t count, GridBorder border 
     settings.stretch = grids.size() == 1 ? 2 : 0;
     grids.push_back(bake_grid(mesh.vertices, mesh.triangles, settings));
   }
+  const OwnShadow own = bake_own_shadow(meshes[1].vertices, meshes[1].triangles, 16, 1);
   std::vector<GridBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     Random random(7, stream_of("grid body"), i);
     GridBody body;
     body.grid = grids[i % 3];
+    if (i % 3 == 1) body.own = own;
     body.rotation =
         glm::mat3_cast(glm::angleAxis(random.uniform(0, 6), glm::normalize(glm::dvec3(random_direction(random)))));
     body.position = {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-1, 1)};
