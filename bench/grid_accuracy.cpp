@@ -179,9 +179,11 @@ std::string table_of(const GridAccuracyReport& report, const std::string& receiv
   }
   for (const char* combined : {"merge", "union"}) {
     text += fmt::format("| grid-cone {} / multiply |", combined);
-    for (const std::string& scene : scenes)
-      text += fmt::format(" {:.2f} |", row_for(report, scene, receivers, std::string("grid-cone ") + combined).rmse /
-                                           row_for(report, scene, receivers, "grid-cone multiply").rmse);
+    for (const std::string& scene : scenes) {
+      const double whole = row_for(report, scene, receivers, "grid-cone multiply").rmse;
+      const double ratio = row_for(report, scene, receivers, std::string("grid-cone ") + combined).rmse / whole;
+      text += whole > 0 ? fmt::format(" {:.2f} |", ratio) : " both 0 |";
+    }
     text += "\n";
   }
   return text;

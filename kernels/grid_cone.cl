@@ -86,7 +86,7 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
     RunningCone both = running;
     JOIN(combine_, COMBINE)(&both, next);
     running = pick_cone(some, both, running);
-    border |= p.border & drawn;
+    border |= p.border & inside;
   }
   const real v = PICK(drawn, as_visibility(VISIBILITY(running)), REAL(1.0));
   STORE(v * (REAL(1.0) - own_shadow), visibility, i);

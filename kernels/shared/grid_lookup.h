@@ -14,8 +14,8 @@ typedef struct {
 } GridPoint;
 
 /// A component of a vector times a row of 4.
-SHARED real grid_row(const global float* m, real x, real y, real z, real constant) {
-  return fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), constant)));
+SHARED real grid_row(const global float* m, real x, real y, real z, real offset) {
+  return fma(x, (real)(m[0]), fma(y, (real)(m[1]), fma(z, (real)(m[2]), offset)));
 }
 
 SHARED GridPoint grid_point(global const GridRecord* grid, real x, real y, real z) {
