@@ -63,7 +63,9 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
     return;
   }
   const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
+#ifndef PAPER_CONE
   const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
+#endif
   RunningCone running = no_cone();
   SEE_ALL(a, b, c);
   truth border = (truth)(0);
