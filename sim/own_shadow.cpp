@@ -84,10 +84,11 @@ OwnShadow fit_own_shadow(std::span<const OwnShadowPoint> points, glm::vec3 low, 
   std::vector<Equations> equations(samples);
   for (const OwnShadowPoint& point : points) {
     const glm::dvec4 row(glm::dvec3(point.normal), 1);
-    for_each_corner(cell_of(glm::dvec3(point.position), glm::dvec3(low), glm::dvec3(high), size), size, [&](std::size_t i, double weight) {
-      equations[i].matrix += glm::outerProduct(weight * row, row);
-      equations[i].right += weight * double(point.share) * row;
-    });
+    for_each_corner(cell_of(glm::dvec3(point.position), glm::dvec3(low), glm::dvec3(high), size), size,
+                    [&](std::size_t i, double weight) {
+                      equations[i].matrix += glm::outerProduct(weight * row, row);
+                      equations[i].right += weight * double(point.share) * row;
+                    });
   }
   shadow.fit.assign(samples, glm::vec4(0));
   std::vector<char> known(samples, 0);

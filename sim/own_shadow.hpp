@@ -1,5 +1,5 @@
-// What a rigid body takes from its own surface, sampled on a grid within its bounding box. A cone of occlusion, looked up
-// on the surface itself, mixes what lies before and behind it; here each sample knows of surfaces only.
+// What a rigid body takes from its own surface, sampled on a grid within its bounding box. A cone of occlusion, looked
+// up on the surface itself, mixes what lies before and behind it; here each sample knows of surfaces only.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace understory {
 
 inline constexpr std::uint32_t own_shadow_size = 32;  // samples per axis
 
-/// Share of V_c that the body itself blocks above a point of its surface, as s + v.n for the normal n there: surfaces that
-/// face several ways, a corner or both sides of a wall, can share a sample.
+/// Share of V_c that the body itself blocks above a point of its surface, as s + v.n for the normal n there: surfaces
+/// that face several ways, a corner or both sides of a wall, can share a sample.
 struct OwnShadow {
   std::uint32_t size = 0;      // samples per axis, the outermost on the faces of the box; 0: no ray met the body again
   glm::vec3 low{0}, high{0};   // the box, m, frame of the body; its middle is that of the body's bounding box

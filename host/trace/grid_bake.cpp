@@ -52,8 +52,9 @@ std::vector<glm::vec2> ordered_points(std::uint32_t count, std::uint64_t seed) {
   return points;
 }
 
-/// The rays of one sample: all directions within the body's bounding sphere, the whole sphere of them inside it. A sample
-/// within the solid gets what the nearest point of the surface sees: receivers beside it lie between such samples.
+/// The rays of one sample: all directions within the body's bounding sphere, the whole sphere of them inside it. A
+/// sample within the solid gets what the nearest point of the surface sees: receivers beside it lie between such
+/// samples.
 class SampleTracer {
  public:
   SampleTracer(const Tracer& tracer, const Ball& ball, const std::vector<glm::vec2>& points, std::uint64_t seed)

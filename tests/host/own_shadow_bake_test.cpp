@@ -52,7 +52,8 @@ TEST(OwnShadowBake, ABowlSeesHalfOfItsSphereAndNothingOutside) {
     const glm::dvec3 out(std::cos(down) * std::cos(turn), std::cos(down) * std::sin(turn), -std::sin(down));
     EXPECT_NEAR(own_share(shadow, out, -out), 0.5, 0.04) << i;
     EXPECT_NEAR(own_share(shadow, out, out), 0, 0.04) << i;
-    worst_bits = std::max(worst_bits, std::abs(double(own_share(stored, out, -out)) - double(own_share(shadow, out, -out))));
+    worst_bits =
+        std::max(worst_bits, std::abs(double(own_share(stored, out, -out)) - double(own_share(shadow, out, -out))));
   }
   EXPECT_LT(worst_bits, 4.0 / 254);
 }
