@@ -1,8 +1,5 @@
 #include "host/frame/read_back.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 
 namespace understory {
@@ -38,32 +35,24 @@ Plane shifted(const Plane& values, double by) {
 
 void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
   const std::size_t count = frame.pixels();
-  const auto reading = [&](auto& into, const auto& plane) {
-    return [&] { into = read_image(plane, planes.row_length, frame); };
-  };
-  const bool with_height = planes.height_above_root.size() > 0;
-  // New memory is cleared before it is written: planes side by side take half the time.
-  tbb::parallel_invoke(reading(frame.owner, planes.owner), reading(frame.validity, planes.validity),
-                       reading(frame.position[0], planes.position_x), reading(frame.position[1], planes.position_y),
-                       reading(frame.position[2], planes.position_z), reading(frame.normal[0], planes.normal_x),
-                       reading(frame.normal[1], planes.normal_y), reading(frame.normal[2], planes.normal_z),
-                       reading(frame.depth, planes.depth), [&] {
-                         if (with_height) reading(frame.height_above_root, planes.height_above_root)();
-                       });
-  tbb::parallel_for(std::size_t(0), std::size_t(3), [&](std::size_t axis) {
-    Plane& plane = frame.position[axis];
+  const auto read_first = [&](const auto& plane) { return read_image(plane, planes.row_length, frame); };
+  frame.owner = read_first(planes.owner);
+  frame.validity = read_first(planes.validity);
+  const Buffer<float>* positions[3] = {&planes.position_x, &planes.position_y, &planes.position_z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Plane& plane = frame.position[axis] = read_first(*positions[axis]);
     const double offset = eye[static_cast<int>(axis)];
     for (std::size_t i = 0; i < count; ++i)
       if ((frame.validity[i] & validity::background) == 0) plane[i] = static_cast<float>(plane[i] + offset);
-  });
+  }
+  frame.normal = {read_first(planes.normal_x), read_first(planes.normal_y), read_first(planes.normal_z)};
+  frame.depth = read_first(planes.depth);
+  if (planes.height_above_root.size() > 0) frame.height_above_root = read_first(planes.height_above_root);
 }
 
 void read_visibility(const VisibilityPasses& passes, std::size_t row_length, Frame& frame) {
   frame.visibility = read_image(passes.visibility(), row_length, frame);
-  std::vector<std::pair<Plane*, const Buffer<float>*>> terms;
-  for (const auto& [name, plane] : passes.terms()) terms.emplace_back(&frame.terms[name], &plane);
-  tbb::parallel_for(std::size_t(0), terms.size(),
-                    [&](std::size_t k) { *terms[k].first = read_image(*terms[k].second, row_length, frame); });
+  for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_image(plane, row_length, frame);
   if (const EnvironmentLight* light = passes.environment()) {
     for (std::size_t channel = 0; channel < 3; ++channel)
       frame.ambient_light[channel] = read_image(light->planes()[channel], row_length, frame);

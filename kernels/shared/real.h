@@ -102,15 +102,8 @@ BYTES_OF(uchar)
 #define load_bytes JOIN(vload, W)
 #endif
 
-#ifndef __has_builtin
-#define __has_builtin(name) 0
-#endif
-
 // All lanes' bits, or-ed. PoCL's own `any` tests pair after pair with a branch each: three times the instructions.
 SHARED int any_lane(truth condition) {
-#if __has_builtin(__builtin_reduce_or)
-  return __builtin_reduce_or(condition);
-#else
 #if W == 16
   const int8 eight = condition.lo | condition.hi;
   const int4 four = eight.lo | eight.hi;
@@ -121,7 +114,6 @@ SHARED int any_lane(truth condition) {
 #endif
   const int2 two = four.lo | four.hi;
   return two.x | two.y;
-#endif
 }
 #endif
 
