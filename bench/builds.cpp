@@ -25,7 +25,8 @@ void time_builds(const BenchOptions& options,
   bool any = false;
   for (const KernelCase& tested : kernel_cases()) {
     const std::string name = "kernel/" + tested.kernel;
-    if (name.find(options.filter) == std::string::npos) continue;
+    const std::string sizes = name + "/";  // a filter may name a size of the kernel, which is built but once
+    if (sizes.find(options.filter) == std::string::npos && options.filter.find(sizes) == std::string::npos) continue;
     any = true;
     if (options.progress) options.progress(name);
     Device device(options.device);  // of its own: nothing is built yet
