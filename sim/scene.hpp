@@ -176,7 +176,7 @@ struct NearField {
   int blur = 0;                      // radius of the edge-aware blur, pixels; 0: none
   bool half_resolution = false;
   int guard = 0;                    // pixels drawn around the image for the samples that leave it
-  std::string combine = "product";  // with the other terms: product, minimum
+  std::string combine = "minimum";  // with the other terms: product, minimum
 };
 
 /// How the grids of moving occluders are baked (host/trace/grid_bake.hpp).
@@ -184,7 +184,7 @@ struct GridChoice {
   int size = 32;  // samples per axis
   double epsilon =
       0.003;           // eq. 4 of Malmer et al. 2005. They take 0.1; what bodies of many parts shade reaches further
-  double stretch = 2;  // how samples crowd about the middle (sim/occlusion_grid.hpp)
+  double stretch = 3;  // how samples crowd about the middle (sim/occlusion_grid.hpp)
   int rays = 256;      // per sample
 };
 

@@ -77,13 +77,14 @@ SHARED void combine_multiply(PRIVATE RunningCone* running, const RunningCone nex
   running->cosine = fma(REAL(1.0) - running->cosine, next.cosine, running->cosine);
 }
 
-/// Of what two cones share geometrically each blocks its opacity, independently. Its cosine is the mean of the cones'
-/// cosines, the smaller cone's counting more: it is the smaller cone's where that lies within the other.
+/// What two cones share geometrically the denser one blocks, and the other hides behind it: the parts of a body do so more
+/// than chance has it, and of opaque cones it is the same. Its cosine is the mean of the cones' cosines, the smaller cone's
+/// counting more: it is the smaller cone's where that lies within the other.
 SHARED void combine_merge(PRIVATE RunningCone* running, const RunningCone next) {
   const real p = at_least(running->share, REAL(1e-9)), q = at_least(next.share, REAL(1e-9));
   const real lean = fma(running->x, next.x, fma(running->y, next.y, running->z * next.z));
   const real overlap = overlap_of_apertures(running->aperture, next.aperture, at_most(at_least(lean, REAL(-1.0)), REAL(1.0)));
-  const real twice = overlap * (p / at_least(running->aperture, p)) * (q / at_least(next.aperture, q));
+  const real twice = overlap * at_most(p / at_least(running->aperture, p), q / at_least(next.aperture, q));
   const real mean = fma(running->cosine * q, q, next.cosine * p * p) / (p * q * (p + q));
   const real common = at_most(twice * mean, at_most(running->cosine, next.cosine));
   add_axes(running, next);
