@@ -27,7 +27,7 @@ std::string describe(const ObscuranceWay& way, const NearField& options) {
   return text;
 }
 
-/// Radii alone and in pairs, thicknesses, falloffs, with and without normals.
+/// Radii alone and in pairs, thicknesses in radii, falloffs, with and without normals.
 std::vector<NearField> settings() {
   std::vector<NearField> all;
   const auto add = [&](double radius, double second, const char* radii, double thickness, const char* falloff,
@@ -36,24 +36,21 @@ std::vector<NearField> settings() {
     options.radius = radius;
     options.second_radius = second;
     options.radii = radii;
-    options.thickness = thickness;
+    options.thickness = thickness * radius;
     options.falloff = falloff;
     options.normals = normals;
     all.push_back(options);
   };
-  for (const double radius : {0.1, 0.25, 0.5, 1.0, 2.0, 3.0}) add(radius, 0, "product", 0, "constant", "buffer");
-  for (const double thickness : {0.05, 0.2, 0.5})
-    for (const double radius : {0.5, 1.0, 2.0}) add(radius, 0, "product", thickness, "constant", "buffer");
+  for (const char* falloff : {"constant", "quadratic", "cosine"})
+    for (const double thickness : {0.0, 4.0, 8.0, 16.0})
+      for (const double radius : {0.25, 0.5, 1.0, 2.0, 3.0}) add(radius, 0, "product", thickness, falloff, "buffer");
   for (const char* radii : {"product", "minimum"})
-    for (const double thickness : {0.0, 0.2}) {
-      add(0.25, 1, radii, thickness, "constant", "buffer");
-      add(0.5, 2, radii, thickness, "constant", "buffer");
-    }
-  for (const double radius : {0.25, 1.0}) {
-    add(radius, 0, "product", 0, "quadratic", "buffer");
-    add(radius, 0, "product", 0.2, "quadratic", "buffer");
-    add(radius, 0, "product", 0, "constant", "none");
-  }
+    for (const char* falloff : {"constant", "quadratic", "cosine"})
+      for (const double thickness : {0.0, 16.0}) {
+        add(0.25, 1, radii, thickness, falloff, "buffer");
+        add(0.5, 2, radii, thickness, falloff, "buffer");
+      }
+  for (const double radius : {0.25, 1.0}) add(radius, 0, "product", 0, "constant", "none");
   return all;
 }
 

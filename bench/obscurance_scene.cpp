@@ -39,7 +39,7 @@ std::vector<ObscuranceWay> obscurance_ways() {
   return ways;
 }
 
-const ObscuranceSampleSet& many_lines(int count) {
+const ObscuranceSampleSet& many_points(int count) {
   struct Many {
     std::vector<ObscuranceSample> samples;
     ObscuranceSampleSet set;
@@ -47,14 +47,17 @@ const ObscuranceSampleSet& many_lines(int count) {
   static std::map<int, Many> all;
   Many& many = all[count];
   if (!many.samples.empty()) return many.set;
-  const float share = 1.0f / static_cast<float>(count);
+  double sum = 0;
   for (int i = 0; i < count; ++i) {
-    // Of the ball's volume, 1 - (1 - r^2)^(3/2) lies within r of the axis.
-    const double inside = (i + 0.5) / count, turn = 2 * glm::pi<double>() * 0.6180339887498949 * i;
-    const double r = std::sqrt(1 - std::pow(1 - inside, 2.0 / 3.0));
-    many.samples.push_back(
-        {static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)), 0, share, share});
+    // Radii by the square root of two's multiples, so that neighbours in direction are none in radius.
+    const double shell = std::fmod((i + 0.5) * std::sqrt(2.0), 1.0), r = std::cbrt(shell);
+    const double z = 1 - 2 * (i + 0.5) / count, turn = 2 * glm::pi<double>() * 0.6180339887498949 * i;
+    const double flat = r * std::sqrt(1 - z * z), weight = 1 - r * r;
+    many.samples.push_back({static_cast<float>(flat * std::cos(turn)), static_cast<float>(flat * std::sin(turn)),
+                            static_cast<float>(r * z), 1.0f / static_cast<float>(count), static_cast<float>(weight)});
+    sum += weight;
   }
+  for (ObscuranceSample& sample : many.samples) sample.quadratic_share /= static_cast<float>(sum);
   many.set = {many.samples, false, 0, 0, 0};
   return many.set;
 }
@@ -89,7 +92,9 @@ std::function<void()> ObscuranceScene::runner(const ObscuranceWay& way, const Ne
     };
   const auto gather = std::make_shared<DepthMomentsPass>(device_);
   const auto moments = std::make_shared<DepthMoments>(gather->allocate(device_, view_));
-  const auto pass = std::make_shared<ObscuranceAreaPass>(device_, options, line_samples(way.samples), way.area_spread);
+  NearField constant = options;  // areas have no other falloff
+  constant.falloff = "constant";
+  const auto pass = std::make_shared<ObscuranceAreaPass>(device_, constant, line_samples(way.samples), way.area_spread);
   return [this, gather, moments, pass] {
     gather->run(planes_, view_, *moments);
     pass->run(planes_, view_, *moments, visibility_);
@@ -103,8 +108,8 @@ Plane ObscuranceScene::shade(const ObscuranceWay& way, const NearField& options)
   return values;
 }
 
-Plane ObscuranceScene::shade_lines(const ObscuranceSampleSet& set, const NearField& options) {
-  ObscuranceLinePass(device_, options, set).run(planes_, view_, visibility_);
+Plane ObscuranceScene::shade_points(const ObscuranceSampleSet& set, const NearField& options) {
+  ObscurancePointPass(device_, options, set).run(planes_, view_, visibility_);
   Plane values(planes_.fragments);
   visibility_.read(std::span<float>(values));
   return values;

@@ -22,9 +22,9 @@ struct ObscuranceWay {
 /// Lines 5 to 16, points 6 to 33, areas.
 std::vector<ObscuranceWay> obscurance_ways();
 
-/// `count` lines of equal share of the ball's volume, on a spiral: what the sets converge to. The span lives as long as
-/// the program.
-const ObscuranceSampleSet& many_lines(int count);
+/// `count` points of equal share of the ball's volume, on spirals: what lines, which average over pixels, and points
+/// converge to. The span lives as long as the program.
+const ObscuranceSampleSet& many_points(int count);
 
 /// Milliseconds of processor time, all threads together.
 double processor_ms();
@@ -37,7 +37,7 @@ class ObscuranceScene {
 
   /// Obscurance of the frame's pixels.
   Plane shade(const ObscuranceWay& way, const NearField& options);
-  Plane shade_lines(const ObscuranceSampleSet& set, const NearField& options);
+  Plane shade_points(const ObscuranceSampleSet& set, const NearField& options);
   Plane blurred(const Plane& plane, const NearField& options);
 
   /// Least processor time of each way over `repetitions` rounds that take them by turns, over the number of processors

@@ -1,17 +1,13 @@
-// `obscurance-point`: the open share of the ball around each fragment from points in it, the older form that Loos & Sloan
-// 2010 compare with (section 2). Points are reflected about a random direction, and with -DNORMALS into the hemisphere of
-// the normal (section 4.4). -DTHICKNESS: open again behind a surface's thickness; -DRADII=1, 2: product or minimum of two
-// radii. The falloff is in the rows' shares. One work-item per W fragments; planes are padded.
+// `obscurance-point`: the open share of the ball around each fragment from points in it, the older form that Loos &
+// Sloan 2010 compare with (section 2). Points are reflected about a random direction, and with -DNORMALS into the
+// hemisphere of the normal (section 4.4); with -DCOSINE they fill the ball on top of the tangent plane instead.
+// -DTHICKNESS: open again behind a surface; -DRADII=1, 2: product or minimum of two radii. The falloff is in the rows'
+// shares. One work-item per W fragments; planes are padded.
 #pragma OPENCL FP_CONTRACT OFF
-#include "kernels/shared/obscurance_fragments.h"
+#include "kernels/shared/obscurance_entry.h"
 
 /// A point of the plane, by rounding, is not behind it. Radii.
 #define ON_THE_PLANE REAL(1e-4)
-
-/// Vectors along the disc's two axes and the sight.
-typedef struct {
-  real x, y, z;
-} BallVector;
 
 /// The k-th of 16 directions over a hemisphere: equal steps in z, golden section in azimuth.
 SHARED BallVector mirror_direction(whole k) {
@@ -36,21 +32,9 @@ SHARED BallVector reflected(BallVector p, BallVector by, real length) {
 
 SHARED real along(BallVector p, BallVector q) { return fma(p.x, q.x, fma(p.y, q.y, p.z * q.z)); }
 
-#ifdef NORMALS
-/// The normal along the disc's axes (kernels/shared/obscurance.h) and the sight.
-SHARED BallVector normal_in_ball(Receiver to) {
-  const real share = fma(to.normal_x, to.sight_x, to.normal_y * to.sight_y) / (REAL(1.0) + to.sight_z) + to.normal_z;
-  BallVector normal;
-  normal.x = fma(-to.sight_x, share, to.normal_x);
-  normal.y = fma(-to.sight_y, share, to.normal_y);
-  normal.z = to.facing / to.ray_length;
-  return normal;
-}
-#endif
-
-SHARED real point_obscurance(global const float* depth, global uint* validity, global const ObscuranceRow* rows,
-                             uint count, uint item, Pixels at, Receiver to, truth drawn, float radius,
-                             const ObscuranceSetting* setting) {
+SHARED real ball_obscurance(global const float* depth, global uint* validity, global const ObscuranceRow* rows,
+                            uint count, uint item, Pixels at, Receiver to, truth drawn, float radius,
+                            const ObscuranceSetting* setting) {
   const Ball ball = ball_around(to, (real)(radius), (real)(setting->focal));
   const BallVector mirror = mirror_direction(at.turn);
 #ifdef NORMALS
@@ -65,7 +49,12 @@ SHARED real point_obscurance(global const float* depth, global uint* validity, g
   for (uint row = 0; row < count; ++row) {
     const BallVector sample = {(real)(rows[row].x), (real)(rows[row].y), (real)(rows[row].z)};
     BallVector p = reflected(sample, mirror, along(sample, mirror));
-#ifdef NORMALS
+#ifdef COSINE
+    p.x = fma(normal.x, REAL(0.5), p.x);
+    p.y = fma(normal.y, REAL(0.5), p.y);
+    p.z = fma(normal.z, REAL(0.5), p.z);
+    const real rise = along(p, normal);
+#elif defined(NORMALS)
     const real rise = along(p, normal);
     p = reflected(p, normal, at_most(rise, REAL(0.0)));
 #endif
@@ -79,11 +68,12 @@ SHARED real point_obscurance(global const float* depth, global uint* validity, g
     const PlaneDepth plane = plane_depth(to, ball, next.x, next.y);
     z = PICK(plane.is_beyond, z, fma(fabs(rise), per_facing, plane.depth - ON_THE_PLANE));
 #endif
-    truth is_open = z < seen;
 #ifdef THICKNESS
-    is_open |= z > fma((real)(setting->thickness), ball.per_radius, seen);
+    const real behind = at_most((z - seen) * (real)(0.5f * radius / setting->thickness), REAL(1.0));
+#else
+    const real behind = REAL(0.0);
 #endif
-    open += PICK(is_open, share, REAL(0.0));
+    open = fma(share, PICK(z < seen, REAL(1.0), behind), open);
     all = fma(full, share, all);
     left |= NOT(next.inside);
   }
@@ -91,24 +81,9 @@ SHARED real point_obscurance(global const float* depth, global uint* validity, g
   return open_share(open, all);
 }
 
-kernel void shade_obscurance_point(global const float* depth, global const float* normal_x, global const float* normal_y,
-                                   global const float* normal_z, const ObscuranceSetting setting,
-                                   global const ObscuranceRow* rows, uint count, uint items, global float* visibility,
-                                   global uint* validity) {
-  const uint i = get_global_id(0);
-  if (i >= items) return;
-  const truth drawn = (LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) == (bits)(0u);
-  if (!ANY(drawn)) {
-    STORE(REAL(1.0), visibility, i);
-    return;
-  }
-  const Pixels at = pixels_of(i, &setting);
-  const Receiver to =
-      receiver_of(at, LOAD(depth, i), LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i), &setting);
-  real v = point_obscurance(depth, validity, rows, count, i, at, to, drawn, setting.radius, &setting);
-#ifdef RADII
-  const real second = point_obscurance(depth, validity, rows, count, i, at, to, drawn, setting.second_radius, &setting);
-  v = RADII == 1 ? v * second : at_most(v, second);
-#endif
-  STORE(PICK(drawn, v, REAL(1.0)), visibility, i);
+kernel void shade_obscurance_point(global const float* depth, global const float* normal_x,
+                                   global const float* normal_y, global const float* normal_z,
+                                   const ObscuranceSetting setting, global const ObscuranceRow* rows, uint count,
+                                   uint items, global float* visibility, global uint* validity) {
+  shade_balls(depth, normal_x, normal_y, normal_z, &setting, rows, count, items, visibility, validity);
 }

@@ -170,9 +170,9 @@ struct NearField {
   double radius = 0.25;              // m, of the ball that is looked at
   double second_radius = 0;          // m; 0: one radius only
   std::string radii = "product";     // of two radii: product, minimum
-  std::string falloff = "constant";  // constant, quadratic
+  std::string falloff = "constant";  // constant, quadratic, cosine
   std::string normals = "buffer";    // buffer, depth (made from it), none
-  double thickness = 0;              // m behind what is seen; 0: no end
+  double thickness = 0;              // m behind what is seen, on the mean; 0: no end, in frames 5 radii
   int blur = 0;                      // radius of the edge-aware blur, pixels; 0: none
   bool half_resolution = false;
   int guard = 0;                    // pixels drawn around the image for the samples that leave it

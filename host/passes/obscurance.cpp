@@ -44,36 +44,38 @@ ObscuranceSetting obscurance_setting(const ObscuranceView& view, const NearField
   return setting;
 }
 
+bool is_cosine(const NearField& near_field) { return near_field.falloff == "cosine" && near_field.normals != "none"; }
+
 std::string obscurance_options(const NearField& near_field) {
   std::string options;
   if (near_field.normals != "none") options += " -DNORMALS";
   if (near_field.falloff == "quadratic") options += " -DQUADRATIC";
+  if (is_cosine(near_field)) options += " -DCOSINE";
   if (near_field.thickness > 0) options += " -DTHICKNESS";
   if (near_field.second_radius > 0) options += near_field.radii == "minimum" ? " -DRADII=2" : " -DRADII=1";
   return options;
 }
 
-std::vector<ObscuranceRow> line_rows(const ObscuranceSampleSet& set, const NearField& near_field, bool centre) {
+std::vector<ObscuranceRow> line_rows(const ObscuranceSampleSet& set, const NearField& near_field) {
   const bool quadratic = near_field.falloff == "quadratic";
+  const double size = is_cosine(near_field) ? 0.5 : 1;
   std::vector<ObscuranceRow> rows;
-  for (const ObscuranceSample& sample : set.samples.subspan(set.centre && !centre ? 1 : 0)) {
-    const double x = double{sample.x}, y = double{sample.y}, half = std::sqrt(1 - x * x - y * y);
+  for (const ObscuranceSample& sample : set.samples) {
+    const double x = size * double{sample.x}, y = size * double{sample.y},
+                 half = std::sqrt(size * size - x * x - y * y);
     const double whole = quadratic ? 4.0 / 3 * half * half * half : 2 * half;
-    rows.push_back({sample.x, sample.y, static_cast<float>(half),
+    rows.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(half),
                     static_cast<float>(double{share_of(sample, near_field)} / whole)});
   }
   return rows;
 }
 
 std::vector<ObscuranceRow> point_rows(const ObscuranceSampleSet& set, const NearField& near_field) {
+  const float size = is_cosine(near_field) ? 0.5f : 1.0f;
   std::vector<ObscuranceRow> rows;
   for (const ObscuranceSample& sample : set.samples)
-    rows.push_back({sample.x, sample.y, sample.z, share_of(sample, near_field)});
+    rows.push_back({size * sample.x, size * sample.y, size * sample.z, share_of(sample, near_field)});
   return rows;
-}
-
-float centre_share(const ObscuranceSampleSet& set, const NearField& near_field) {
-  return set.centre ? share_of(set.samples.front(), near_field) : 0.0f;
 }
 
 void require_view(const char* pass, const FragmentPlanes& planes, const ObscuranceView& view,

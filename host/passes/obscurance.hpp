@@ -26,12 +26,12 @@ ObscuranceSetting obscurance_setting(const ObscuranceView& view, const NearField
 /// -D options of the kernels.
 std::string obscurance_options(const NearField& near_field);
 
-/// Lines with their half lengths. Without `centre`, the set's centre is left to centre_share.
-std::vector<ObscuranceRow> line_rows(const ObscuranceSampleSet& set, const NearField& near_field, bool centre);
-std::vector<ObscuranceRow> point_rows(const ObscuranceSampleSet& set, const NearField& near_field);
+/// Samples fill the ball on top of the tangent plane; without normals it is always the one around the fragment.
+bool is_cosine(const NearField& near_field);
 
-/// Of the sample in the set's centre; 0: none.
-float centre_share(const ObscuranceSampleSet& set, const NearField& near_field);
+/// Lines with their half lengths.
+std::vector<ObscuranceRow> line_rows(const ObscuranceSampleSet& set, const NearField& near_field);
+std::vector<ObscuranceRow> point_rows(const ObscuranceSampleSet& set, const NearField& near_field);
 
 /// Requires width x height fragments, and planes of their padded size.
 void require_view(const char* pass, const FragmentPlanes& planes, const ObscuranceView& view,

@@ -18,7 +18,7 @@ ObscuranceAreaPass::ObscuranceAreaPass(Device& device, const NearField& near_fie
                                        double spread, int lanes)
     : lanes_(device, lanes, "obscurance-area"),
       near_field_(near_field),
-      rows_(device, std::span<const ObscuranceRow>(line_rows(set, near_field, true)), "obscurance areas"),
+      rows_(device, std::span<const ObscuranceRow>(line_rows(set, near_field)), "obscurance areas"),
       kernel_(device, "obscurance_area", "shade_obscurance_area", "obscurance-area",
               lanes_.option() + area_options(near_field, spread)) {}
 

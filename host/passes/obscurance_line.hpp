@@ -17,7 +17,6 @@ class ObscuranceLinePass {
  private:
   Lanes lanes_;
   NearField near_field_;
-  float centre_share_;
   Buffer<ObscuranceRow> rows_;
   Kernel kernel_;
 };

@@ -19,11 +19,11 @@ namespace understory {
 /// A fragment as its samples need it. Vectors in camera axes: right, down, forward.
 typedef struct {
   real normal_x, normal_y, normal_z;
-  real ray_x, ray_y, ray_length;       // the ray through the fragment, forward component 1
-  real sight_x, sight_y, sight_z;      // unit direction of that ray
-  real facing;                         // normal times ray, negative
-  real depth;                          // camera z, m
-  real scale;                          // m across at the fragment's depth per unit of x/z; orthographic: 1
+  real ray_x, ray_y, ray_length;         // the ray through the fragment, forward component 1
+  real sight_x, sight_y, sight_z;        // unit direction of that ray
+  real facing;                           // normal times ray, negative
+  real depth;                            // camera z, m
+  real scale;                            // m across at the fragment's depth per unit of x/z; orthographic: 1
   real spread_xx, spread_xy, spread_yy;  // disc to image: the disc faces the line of sight, the image the axis
   real perspective;
 } Receiver;
@@ -37,8 +37,7 @@ typedef struct {
 } Ball;
 
 /// (x, y): of the pixel, from the principal point, over the focal length. The normal's length is 1.
-SHARED Receiver receiver_at(real x, real y, real depth, real normal_x, real normal_y, real normal_z,
-                            real perspective) {
+SHARED Receiver receiver_at(real x, real y, real depth, real normal_x, real normal_y, real normal_z, real perspective) {
   Receiver to;
   to.normal_x = normal_x;
   to.normal_y = normal_y;
@@ -68,6 +67,20 @@ SHARED Ball ball_around(Receiver to, real radius, real focal) {
   ball.per_pixel = REAL(1.0) / ball.pixels;
   ball.widening = to.perspective * radius / to.scale;
   return ball;
+}
+
+/// Along the disc's two axes and the sight.
+typedef struct {
+  real x, y, z;
+} BallVector;
+
+SHARED BallVector normal_in_ball(Receiver to) {
+  const real share = fma(to.normal_x, to.sight_x, to.normal_y * to.sight_y) / (REAL(1.0) + to.sight_z) + to.normal_z;
+  BallVector normal;
+  normal.x = fma(-to.sight_x, share, to.normal_x);
+  normal.y = fma(-to.sight_y, share, to.normal_y);
+  normal.z = to.facing / to.ray_length;
+  return normal;
 }
 
 /// Where the ray of the pixel that is (x, y) radii away in the image meets the tangent plane.
@@ -103,14 +116,23 @@ SHARED real line_integral(real half_length, real depth, int quadratic) {
   if (!quadratic) return end + half_length;
   // Of half^2 - z^2, section 4: 1 - r^2 along the line.
   const real square = half_length * half_length;
-  return fma(end, fma(end * end, REAL(-0.33333333333333333), square),
-             REAL(0.66666666666666667) * square * half_length);
+  return fma(end, fma(end * end, REAL(-0.33333333333333333), square), REAL(0.66666666666666667) * square * half_length);
 }
 
-/// What is open behind a surface of some thickness, in front of the plane: section 4.3.
-SHARED real behind_integral(real half_length, real back, real plane, int quadratic) {
-  return at_least(line_integral(half_length, plane, quadratic) - line_integral(half_length, back, quadratic),
-                  REAL(0.0));
+/// What is open, in front of the plane, behind a surface at `depth` whose back is spread evenly over as much as
+/// `deepest` behind it: section 4.3 with openness that grows evenly instead of a step. Of leaves behind leaves nothing
+/// is known but that the farther behind the first, the less they hide. `per_deepest`: 1/deepest.
+SHARED real behind_integral(real half_length, real depth, real deepest, real per_deepest, real plane, int quadratic) {
+  const real end = at_least(at_most(plane, half_length), -half_length);
+  const real from = at_least(at_most(depth, end), -half_length),
+             to = at_least(at_most(depth + deepest, end), -half_length);
+  if (!quadratic) return end - to + REAL(0.5) * (to - from) * per_deepest * ((from - depth) + (to - depth));
+  // Of z (half^2 - z^2), for the part that grows.
+  const real square = half_length * half_length, f2 = from * from, t2 = to * to;
+  const real moment = REAL(0.25) * (t2 - f2) * (square + square - t2 - f2);
+  const real length = line_integral(half_length, to, 1) - line_integral(half_length, from, 1);
+  return line_integral(half_length, end, 1) - line_integral(half_length, to, 1) +
+         fma(-depth, length, moment) * per_deepest;
 }
 
 /// As line_integral with constant falloff, in front of depths that are spread evenly over mean +- spread (section 4.2):

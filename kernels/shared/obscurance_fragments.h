@@ -8,8 +8,8 @@
 #include "kernels/shared/validity.h"
 
 typedef struct {
-  real x, y;    // pixel, whole numbers
-  whole turn;   // of the rotation pattern
+  real x, y;   // pixel, whole numbers
+  whole turn;  // of the rotation pattern
 } Pixels;
 
 SHARED Pixels pixels_of(uint item, const ObscuranceSetting* setting) {
@@ -60,6 +60,47 @@ SHARED Neighbour neighbour_at(global const float* depth, Pixels at, Ball ball, r
   next.depth = GATHER(real, depth, index, );
   next.inside = (goal_x == pixel_x) & (goal_y == pixel_y);
   return next;
+}
+
+/// A reflection about a direction of the disc that changes from pixel to pixel, then from the disc to the image.
+typedef struct {
+  real xx, xy, yx, yy;
+} Turn;
+
+SHARED Turn turn_of(Pixels at, Receiver to) {
+  const real angle = fma(TO_REAL(at.turn), REAL(0.0625), REAL(-0.5));
+  const real c = cosine_of_turn(angle), s = sine_of_turn(angle);
+  Turn turn;
+  turn.xx = fma(to.spread_xx, c, to.spread_xy * s);
+  turn.yx = fma(to.spread_xy, c, to.spread_yy * s);
+  turn.xy = fma(to.spread_xx, s, -to.spread_xy * c);
+  turn.yy = fma(to.spread_xy, s, -to.spread_yy * c);
+  return turn;
+}
+
+/// Of the ball that samples fill, radii; x and y in the image. -DCOSINE: the largest ball in front of the tangent
+/// plane, whose share of open lines weights directions like a cosine (Szirmay-Kalos et al. 2009, in section 4.4).
+SHARED BallVector middle_of_ball(Receiver to) {
+  BallVector middle = {REAL(0.0), REAL(0.0), REAL(0.0)};
+#ifdef COSINE
+  const BallVector normal = normal_in_ball(to);
+  middle.x = REAL(0.5) * fma(to.spread_xx, normal.x, to.spread_xy * normal.y);
+  middle.y = REAL(0.5) * fma(to.spread_xy, normal.x, to.spread_yy * normal.y);
+  middle.z = REAL(0.5) * normal.z;
+#endif
+  return middle;
+}
+
+/// In the image, radii from the fragment.
+typedef struct {
+  real x, y;
+} DiscPoint;
+
+SHARED DiscPoint turned(Turn turn, BallVector middle, real x, real y) {
+  DiscPoint to;
+  to.x = fma(x, turn.xx, fma(y, turn.xy, middle.x));
+  to.y = fma(x, turn.yx, fma(y, turn.yy, middle.y));
+  return to;
 }
 
 /// Share of the weights that is open; 1 where no sample said anything.

@@ -17,18 +17,17 @@ typedef struct {
   record_int width, height;             // pixels of the depth plane
   record_int first_x, first_y;          // pixels to add for the pattern of rotations, [0, 3]
   float radius, second_radius;          // m; the second is read with -DRADII only
-  float thickness;                      // m; read with -DTHICKNESS only
-  float centre_share;                   // of the sample in the centre, which is not among the rows; 0: none
-} ObscuranceSetting;                    // 96 bytes
+  float thickness;                      // m, the mean; read with -DTHICKNESS only
+} ObscuranceSetting;                    // 92 bytes
 
 /// A line or point of a sample set, ready for summing.
 typedef struct {
-  float x, y, z;  // unit ball, z along the view; lines: z is half the line's length
+  float x, y, z;  // radii from the middle of the ball, z along the view; lines: z is half the line's length
   float share;    // lines: over the whole line's integral of the falloff
 } ObscuranceRow;  // 16 bytes
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(ObscuranceSetting) == 96 && sizeof(ObscuranceRow) == 16);
+static_assert(sizeof(ObscuranceSetting) == 92 && sizeof(ObscuranceRow) == 16);
 }  // namespace understory
 #endif
 #endif

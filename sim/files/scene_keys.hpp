@@ -305,10 +305,11 @@ void keys(Archive& a, NearField& near_field) {
   a.number("second_radius", near_field.second_radius, optional_above_zero(1000, "m", 0),
            "of a second ball; left out: none");
   a.word("radii", near_field.radii, {"product", "minimum"}, "of the two radii");
-  a.word("falloff", near_field.falloff, {"constant", "quadratic"}, "weight over the ball: 1, or 1 - (r/radius)^2");
+  a.word("falloff", near_field.falloff, {"constant", "quadratic", "cosine"},
+         "weight over the ball: 1, or 1 - (r/radius)^2; cosine: 1 over the largest ball in front of the tangent plane");
   a.word("normals", near_field.normals, {"buffer", "depth", "none"}, "clamp to the tangent plane; from where");
   a.number("thickness", near_field.thickness, optional_above_zero(1000, "m", 0),
-           "of what is seen; open behind it; left out: no end");
+           "mean, of what is seen; open behind it; left out: 5 radii");
   a.integer("blur", near_field.blur, 0, 16, "radius of the edge-aware blur, pixels");
   a.flag("half_resolution", near_field.half_resolution, "every second pixel, then depth-aware upsampling");
   a.integer("guard", near_field.guard, 0, 1024, "pixels drawn around the image for samples that leave it");

@@ -87,22 +87,30 @@ TEST(Obscurance, IsTheReference) {
   options.radius = 0.6;
   for (const double field_of_view : {0.9, 2.4, 0.0}) {
     const reference::DepthImage image = image_of(odd_view(61, 37, field_of_view), patchwork(3, 4, 0.5));
-    expect_reference(image, {true, 5}, options);
-    expect_reference(image, {false, 12}, options);
+    for (const char* falloff : {"cosine", "constant"}) {
+      options.falloff = falloff;
+      expect_reference(image, {true, 5}, options);
+      expect_reference(image, {false, 12}, options);
+    }
   }
+  expect_reference(image_of(odd_view(3, 70, 0.9), patchwork(3, 4, 0.5)), {true, 16}, options);
 }
 
 TEST(Obscurance, EveryOptionIsTheReference) {
   UNDERSTORY_NEEDS_DEVICE();
   const reference::DepthImage image = image_of(odd_view(53, 31, 1.2), patchwork(5, 3, 0.6));
-  std::vector<NearField> all(6);
+  std::vector<NearField> all(8);
   for (NearField& options : all) options.radius = 0.5;
   all[0].normals = "none";
   all[1].falloff = "quadratic";
-  all[2].thickness = 0.2;
-  all[3].thickness = 0.2;
+  all[2].thickness = 0.4;
+  all[3].thickness = 0.4;
   all[3].normals = "none";
   all[3].falloff = "quadratic";
+  all[6].thickness = 0.2;
+  all[6].falloff = "quadratic";
+  all[7].thickness = 0.4;
+  all[7].falloff = "cosine";
   all[4].second_radius = 0.2;
   all[5].second_radius = 0.2;
   all[5].radii = "minimum";
@@ -119,6 +127,7 @@ TEST(Obscurance, FlatSurfacesAreOpenWithEverySampleSet) {
   NearField options;
   for (const double field_of_view : {1.0, 60.0, 170.0, 0.0})
     for (const double tilt : {0.0, 35.0, 60.0, 79.5}) {
+      options.falloff = tilt == 35 ? "constant" : "cosine";
       const ObscuranceView view = odd_view(64, 48, field_of_view * pi / 180);
       const glm::dvec3 normal(std::sin(tilt * pi / 180) * 0.6, std::sin(tilt * pi / 180) * 0.8,
                               -std::cos(tilt * pi / 180));
@@ -167,7 +176,6 @@ TEST(Obscurance, ClosedForms) {
   const reference::DepthImage wall = image_of(view, [&](const reference::PixelRay& ray) {
     return SurfacePoint{corner(ray.origin.x), {0, 0, -1}};
   });
-  // Without a line in the centre, which is open at every edge.
   for (const Kind& kind : {Kind{true, 12}, Kind{true, 15}, Kind{false, 33}}) {
     const Shaded shaded = shade_once(device, wall, kind, options);
     EXPECT_NEAR(column_mean(shaded, view, 63), 0.5, 0.04) << name_of(kind);
@@ -181,13 +189,36 @@ TEST(Obscurance, ClosedForms) {
     return SurfacePoint{ray.origin.x > 0 ? 8.8 : 9.0, {0, 0, -1}};
   });
   NearField thick = options;
-  thick.thickness = 0.1;
+  thick.thickness = 0.1;  // 0 to 0.2
   const double endless = column_mean(shade_once(device, curtain, {true, 12}, options), view, 63);
   const double thin = column_mean(shade_once(device, curtain, {true, 12}, thick), view, 63);
-  // Of the hemisphere's half beyond the edge: 1 - (3t - t^3)/2 is in front of height t, and (0.1 < z < 0.2) is closed.
+  // Of the hemisphere's half beyond the edge: 1 - (3t - t^3)/2 is in front of height t, and below 0.2 half is closed.
   const auto below = [](double t) { return (3 * t - t * t * t) / 2; };
   EXPECT_NEAR(endless, 0.5 + 0.5 * (1 - below(0.2)), 0.02);
-  EXPECT_NEAR(thin, 1 - 0.5 * (below(0.2) - below(0.1)), 0.02);
+  EXPECT_NEAR(thin, 1 - 0.5 * 0.5 * below(0.2), 0.02);
+}
+
+TEST(Obscurance, WithCosineFalloffIsThatOfTheTangentBallsCaps) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Device device;
+  ObscuranceView view = odd_view(128, 96, 0);
+  view.centre_x = 64;
+  NearField options;
+  options.falloff = "cosine";
+  options.radius = 1;  // 20 pixels
+  const reference::DepthImage wall = image_of(view, [&](const reference::PixelRay& ray) {
+    return SurfacePoint{ray.origin.x > 0 ? 3.0 : 9.0, {0, 0, -1}};
+  });
+  // A ball of radius 1/2, of which a wall at a distance d cuts a cap of height 1/2 - d: h^2 (3 - 2 h) of it.
+  for (const Kind& kind : {Kind{true, 9}, Kind{true, 16}, Kind{false, 33}}) {
+    const Shaded shaded = shade_once(device, wall, kind, options);
+    for (const int column : {63, 58, 55}) {
+      const double height = 0.5 - (63.5 - column) / 20;
+      EXPECT_NEAR(column_mean(shaded, view, column), 1 - height * height * (3 - 2 * height), 0.05)
+          << name_of(kind) << ", column " << column;
+    }
+    EXPECT_NEAR(column_mean(shaded, view, 63 - 13), 1, 1e-6) << name_of(kind);
+  }
 }
 
 TEST(Obscurance, ConvergesToTheBallOpenShare) {

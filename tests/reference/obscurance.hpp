@@ -107,17 +107,40 @@ class Ball {
   double radius_;
 };
 
-/// Integral of the falloff over the open part of a line of length 2 half: open in front of `seen`, again from `back`
-/// on, nowhere behind `plane`. Simpson's rule is exact for both falloffs.
-inline double open_line(double half, double seen, double back, double plane, bool quadratic) {
+/// Share of backs that are in front of z; 0: no end.
+inline double open_behind(double z, double seen, double thickness) {
+  return thickness > 0 ? std::clamp((z - seen) / (2 * thickness), 0.0, 1.0) : 0.0;
+}
+
+/// Integral of the falloff over the open part of a line of length 2 half: open in front of `seen`, behind it as
+/// open_behind has it, nowhere behind `plane`. Simpson's rule is exact for both falloffs, straight ramps included.
+inline double open_line(double half, double seen, double thickness, double plane, bool quadratic) {
   const auto falloff = [&](double z) { return quadratic ? half * half - z * z : 1.0; };
-  const auto part = [&](double from, double to) {
+  const auto part = [&](double from, double to, const std::function<double(double)>& share) {
     from = std::clamp(from, -half, half);
     to = std::clamp(to, -half, half);
     if (to <= from) return 0.0;
-    return (to - from) / 6 * (falloff(from) + 4 * falloff((from + to) / 2) + falloff(to));
+    const auto at = [&](double z) { return share(z) * falloff(z); };
+    return (to - from) / 6 * (at(from) + 4 * at((from + to) / 2) + at(to));
   };
-  return part(-half, std::min(seen, plane)) + part(std::max(back, -half), plane);
+  const auto whole = [](double) { return 1.0; };
+  const double front = part(-half, std::min(seen, plane), whole);
+  if (thickness <= 0) return front;
+  const double back = seen + 2 * thickness;
+  return front + part(back, plane, whole) +
+         part(seen, std::min(back, plane), [&](double z) { return open_behind(z, seen, thickness); });
+}
+
+/// Of the ball that samples fill, along right, down and sight, radii; and its size.
+struct FilledBall {
+  glm::dvec3 middle{0};
+  double size = 1;
+};
+inline FilledBall filled_ball(const Ball& ball, const NearField& options) {
+  if (options.falloff != "cosine" || options.normals == "none") return {};
+  return {0.5 * glm::dvec3(glm::dot(ball.normal, ball.right), glm::dot(ball.normal, ball.down),
+                           glm::dot(ball.normal, ball.sight)),
+          0.5};
 }
 
 inline Obscurance line_obscurance(const DepthImage& image, int x, int y, const ObscuranceSampleSet& set,
@@ -127,19 +150,19 @@ inline Obscurance line_obscurance(const DepthImage& image, int x, int y, const O
   const double angle = 2 * std::numbers::pi * pattern_turn(x, y), c = std::cos(angle), s = std::sin(angle);
   Obscurance result;
   double open = 0, flat = 0;
+  const FilledBall filled = filled_ball(ball, options);
   for (const ObscuranceSample& sample : set.samples) {
-    const glm::dvec2 p(double{sample.x}, double{sample.y});
-    const double half = std::sqrt(1 - glm::dot(p, p));
-    const double whole = open_line(half, 9, 9, 9, quadratic);
+    const glm::dvec2 p = filled.size * glm::dvec2(double{sample.x}, double{sample.y});
+    const double half = std::sqrt(filled.size * filled.size - glm::dot(p, p));
+    const double whole = open_line(half, 9, 0, 9, quadratic);
     const double share = double{quadratic ? sample.quadratic_share : sample.constant_share} / whole;
     double edge = 1;
-    Ball::Seen seen = ball.look(c * p.x + s * p.y, s * p.x - c * p.y, edge);
-    if (p != glm::dvec2(0)) result.nearest_edge = std::min(result.nearest_edge, edge);
+    const Ball::Seen seen = ball.look(c * p.x + s * p.y + filled.middle.x, s * p.x - c * p.y + filled.middle.y, edge);
+    if (p != glm::dvec2(0) || filled.size < 1) result.nearest_edge = std::min(result.nearest_edge, edge);
     if (!seen.inside) continue;
-    const double plane = normals ? seen.plane : 1e6;
-    const double back = options.thickness > 0 ? seen.depth + options.thickness / radius : 1e9;
-    open += share * open_line(half, seen.depth, back, plane, quadratic);
-    flat += share * open_line(half, normals ? plane : 0, 1e9, 1e6, quadratic);
+    const double plane = normals ? seen.plane - filled.middle.z : 1e6;
+    open += share * open_line(half, seen.depth - filled.middle.z, options.thickness / radius, plane, quadratic);
+    flat += share * open_line(half, normals ? plane : 0, 0, 1e6, quadratic);
   }
   result.value = flat > 1e-6 ? std::clamp(open / flat, 0.0, 1.0) : 1;
   return result;
@@ -157,18 +180,19 @@ inline Obscurance point_obscurance(const DepthImage& image, int x, int y, const 
                           glm::dot(ball.normal, ball.sight));
   Obscurance result;
   double open = 0, all = 0;
+  const FilledBall filled = filled_ball(ball, options);
   for (const ObscuranceSample& sample : set.samples) {
-    glm::dvec3 p = glm::reflect(glm::dvec3(double{sample.x}, double{sample.y}, double{sample.z}), mirror);
-    if (normals && glm::dot(p, normal) < 0) p = glm::reflect(p, normal);
+    glm::dvec3 p = filled.middle +
+                   filled.size * glm::reflect(glm::dvec3(double{sample.x}, double{sample.y}, double{sample.z}), mirror);
+    if (normals && filled.size == 1 && glm::dot(p, normal) < 0) p = glm::reflect(p, normal);
     const Ball::Seen seen = ball.look(p.x, p.y, result.nearest_edge);
     if (!seen.inside) continue;
     const double share = double{quadratic ? sample.quadratic_share : sample.constant_share};
     double z = p.z;
     // As far in front of the plane, along the sight, as the point is.
     if (normals && !seen.beyond_plane) z = seen.plane - 1e-4 - std::abs(glm::dot(p, normal) / normal.z);
-    const double back = options.thickness > 0 ? seen.depth + options.thickness / radius : 1e9;
-    if (z < seen.depth || z > back) open += share;
-    if (std::min(std::abs(z - seen.depth), std::abs(z - back)) < 1e-3) result.doubt += share;
+    open += share * (z < seen.depth ? 1 : open_behind(z, seen.depth, options.thickness / radius));
+    if (std::abs(z - seen.depth) < 1e-3) result.doubt += share;
     all += (normals ? 1 : 0.5) * share;
   }
   result.value = all > 1e-6 ? std::clamp(open / all, 0.0, 1.0) : 1;
