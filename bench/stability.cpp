@@ -47,7 +47,8 @@ void judge_errors(const StabilityCase& one, const std::vector<double>& exact, co
   }
   if (worst_excess > row.bar) row.passed = false;
   if (row.passed && row.max_abs_error.value_or(0) > row.bar)
-    row.reason = "ill-conditioned: units in the last place of the inputs change V as much";
+    row.reason = "ill-conditioned, units in the last place of the inputs change V as much" +
+                 (one.conditioning.empty() ? "" : ": " + one.conditioning);
 }
 
 void judge_neighbours(const StabilityCase& one, const std::vector<double>& exact, const std::vector<float>& v,
@@ -76,6 +77,8 @@ StabilityRow judge(const StabilityCase& one, const std::vector<double>& exact, c
   for (const float v : shaded.visibility) {
     row.finite &= std::isfinite(v);
     row.in_range &= within(v);
+    row.lowest = std::min(row.lowest, double(v));
+    row.highest = std::max(row.highest, double(v));
   }
   row.passed = row.finite && row.in_range;
   if (!exact.empty()) judge_errors(one, exact, shaded.visibility, row);

@@ -21,6 +21,7 @@ struct StabilityRow {
   bool extreme = false;
   std::size_t values = 0;
   bool finite = true, in_range = true;
+  double lowest = 1, highest = 0;       // V: what the case covers
   std::optional<double> max_abs_error;  // against double; none: nothing to compare with
   double bar = 0;                       // what max_abs_error may be: normal_bar or extreme_bar and the stated error
   double stated_error = 0;              // of tables and fits

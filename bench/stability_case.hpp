@@ -13,10 +13,11 @@ namespace understory {
 
 struct StabilityCase {
   std::string kernel, name;
-  bool extreme = true;      // outside the normal domain: a wider bar
-  double stated_error = 0;  // of the model's tables and fits, beside the bar
-  double stated_jump = 0;   // of the model, where it passes from one form to another
-  std::string note;         // what the stated numbers are of, and where they are stated
+  bool extreme = true;            // outside the normal domain: a wider bar
+  double stated_error = 0;        // of the model's tables and fits, beside the bar
+  double stated_jump = 0;         // of the model, where it passes from one form to another
+  std::string note;               // what the stated numbers are of, and where they are stated
+  std::string conditioning = {};  // why units in the last place of the inputs matter, where they do
   std::function<Shaded(Device&)> shade;
   /// V in double with exact transcendental functions; NaN where nothing can be compared. Empty: bounds only.
   std::function<double(std::size_t)> exact = {};

@@ -208,6 +208,9 @@ class GridCases {
     }
     const auto scattered = [](glm::dvec3) { return ExactOccluded{0.5, glm::dvec3(0)}; };
     add("no direction", within(0.99, samples_ / 4), model_of(method_, {body_of(box_grid({4, 4, 4}, scattered))}));
+    const auto solid = [](glm::dvec3 p) { return glm::length(p) < 0.6 ? ExactOccluded{1, glm::dvec3(0)} : ball(p); };
+    add("in and about the solid", within(0.9, samples_ / 2),
+        model_of(method_, {body_of(box_grid({17, 16, 18}, solid))}));
     // Cones in one direction, none or a few: where cones and planes touch.
     std::vector<TestFragment> tilted;
     for (const glm::vec3 n : stability_directions(60)) {

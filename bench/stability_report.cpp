@@ -24,6 +24,8 @@ Json row_json(const StabilityRow& row, bool relaxed) {
                {"last_place", row.last_place},
                {"finite", row.finite},
                {"in_range", row.in_range},
+               {"lowest", row.lowest},
+               {"highest", row.highest},
                {"continuous_within", optional_number(row.largest_jump)},
                {"monotone_within", optional_number(row.largest_fall)},
                {"passed", row.passed},
@@ -94,7 +96,9 @@ constexpr const char* limits = R"(
 - The three solid angles clip a sphere by the receiver's tangent plane only: under `sky: dome` a sphere that is wholly
   below the horizon still darkens a tilted receiver that faces it.
 - Obscurance samples whole pixels: a sample on the border between two of them may take either, which no comparison counts.
-- Inside a body's solid, grids hold the mean of their neighbours; validity code 16 tells of spheres only.
+- Inside a body's solid, grids know no more than their samples: validity code 16 is set in cells that have a corner
+  whose neighbours all lie inside. In the layer of one or two cells along the surface it is not, and grids hold there what
+  the nearest point of the surface sees.
 )";
 
 }  // namespace

@@ -33,13 +33,13 @@ kernel void shade_grid(global const float* position_x, global const float* posit
   }
   const whole group = signed_owner_column(owner_group, owner_row(LOAD(owner, i), owners));
   real v = REAL(1.0);
-  truth border = (truth)(0);
+  truth border = (truth)(0), solid = (truth)(0);
   for (uint j = 0; j < here.count; ++j) {
     global const GridRecord* grid = grids + grid_of_tile(here, lists, j);
     const GridPoint p = grid_point(grid, x, y, z);
     const truth inside = p.inside & drawn;
     if (!ANY(inside)) continue;
-    const real share = look_up_share(grid, samples, p);
+    const real share = look_up_share(grid, samples, p, inside, &solid);
     const real traced = fma(share, REAL(1.0) - (real)(grid->border), (real)(grid->border));
     const real self = SELF_SHARE * at_least(fma(REAL(2.0), traced, REAL(-1.0)), REAL(0.0));
     const truth own = (group == (whole)(grid->group)) & (group >= 0);
@@ -49,4 +49,5 @@ kernel void shade_grid(global const float* position_x, global const float* posit
   }
   STORE(PICK(drawn, as_visibility(v), REAL(1.0)), visibility, i);
   if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
+  if (ANY(solid)) add_validity(validity, i, solid, VALIDITY_OCCLUDER_TOO_CLOSE);
 }

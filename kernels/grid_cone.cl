@@ -68,7 +68,7 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
 #endif
   RunningCone running = no_cone();
   SEE_ALL(a, b, c);
-  truth border = (truth)(0);
+  truth border = (truth)(0), solid = (truth)(0);
   real own_shadow = REAL(0.0);
   for (uint j = 0; j < here.count; ++j) {
     global const GridRecord* grid = grids + grid_of_tile(here, lists, j);
@@ -81,7 +81,7 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
     inside &= ~own;
 #endif
     if (!ANY(inside)) continue;
-    const Cone cone = cone_of(to_world(grid, look_up_cone(grid, samples, p)));
+    const Cone cone = cone_of(to_world(grid, look_up_cone(grid, samples, p, inside, &solid)));
     const RunningCone next = clip_cone(cone, a, b, c);
     const truth some = inside & (next.cosine > REAL(1e-6));
     COVER(cone, PICK(some, next.cosine, REAL(0.0)));
@@ -94,4 +94,5 @@ kernel void shade_grid_cone(global const float* position_x, global const float* 
   STORE(v * (REAL(1.0) - own_shadow), visibility, i);
   STORE_CONE(running, REAL(1.0) - v);
   if (ANY(border)) add_validity(validity, i, border, VALIDITY_GRID_BORDER);
+  if (ANY(solid)) add_validity(validity, i, solid, VALIDITY_OCCLUDER_TOO_CLOSE);
 }

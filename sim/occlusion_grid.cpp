@@ -56,7 +56,11 @@ void fade(OcclusionGrid& grid) {
   });
 }
 
-std::uint8_t unorm8(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
+/// 255 only for all of the sphere.
+std::uint8_t share_byte(float share) {
+  if (share >= everything) return 255;
+  return static_cast<std::uint8_t>(std::min(std::lround(std::max(share, 0.0f) * 255), 254l));
+}
 std::uint8_t snorm8(float value) {
   return static_cast<std::uint8_t>(128 + std::lround(std::clamp(value, -1.0f, 1.0f) * 127));
 }
@@ -147,6 +151,22 @@ void fill_inside(OcclusionGrid& grid) {
   }
 }
 
+void close_solid(OcclusionGrid& grid, std::span<const std::uint8_t> inside) {
+  if (inside.size() != grid.samples()) throw Error(ErrorKind::unexpected, "one flag a sample tells what lies inside");
+  const auto surrounded = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    for (std::uint32_t c = z - 1; c <= z + 1; ++c)
+      for (std::uint32_t b = y - 1; b <= y + 1; ++b)
+        for (std::uint32_t a = x - 1; a <= x + 1; ++a)
+          if (!inside[index_of(grid.size, a, b, c)]) return false;
+    return true;
+  };
+  for_each_sample(grid.size, [&](auto x, auto y, auto z, std::size_t i) {
+    if (!inside[i] || on_face(grid.size, x, y, z) || !surrounded(x, y, z)) return;
+    grid.share[i] = 1;
+    if (grid.has_direction()) grid.direction[i] = glm::vec3(0);
+  });
+}
+
 float faded_from(const OcclusionGrid& grid) {
   float from = 0.875f;
   for (const std::uint32_t size : grid.size) {
@@ -166,7 +186,7 @@ void open_border(OcclusionGrid& grid, GridBorder how) {
 std::vector<std::uint8_t> packed_share(const OcclusionGrid& grid) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(grid.samples());
-  for (const float share : grid.share) bytes.push_back(unorm8(share));
+  for (const float share : grid.share) bytes.push_back(share_byte(share));
   return bytes;
 }
 
@@ -176,7 +196,7 @@ std::vector<std::uint8_t> packed_cone(const OcclusionGrid& grid) {
   bytes.reserve(4 * grid.samples());
   for (std::size_t i = 0; i < grid.samples(); ++i) {
     for (int axis = 0; axis < 3; ++axis) bytes.push_back(snorm8(4 * grid.direction[i][axis]));
-    bytes.push_back(unorm8(grid.share[i]));
+    bytes.push_back(share_byte(grid.share[i]));
   }
   return bytes;
 }

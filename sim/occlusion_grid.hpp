@@ -35,7 +35,7 @@ struct OcclusionGrid {
   GridSize size{0, 0, 0};
   glm::vec3 low{0}, high{0};         // the box, m, frame of the body
   float border = 0;                  // M of the rescale, or 0: share before it = share (1 - border) + border
-  std::vector<float> share;          // x fastest, then y, then z
+  std::vector<float> share;          // x fastest, then y, then z; 1: within the solid, as are all neighbours
   std::vector<glm::vec3> direction;  // the same order; empty in a scalar grid
   float stretch = 0;                 // how samples crowd about the middle, see below; 0: evenly spread
   std::size_t samples() const { return std::size_t(size[0]) * size[1] * size[2]; }
@@ -58,6 +58,11 @@ Box grid_extent(const Box& body, double epsilon);
 /// are not, layer by layer until none is left. A grid that is blocked everywhere stays as it is.
 void fill_inside(OcclusionGrid& grid);
 
+/// Gives the share 1 and no direction to samples that lie within the solid (`inside` not 0, one a sample) with all 26
+/// neighbours: all of a cell that has such a corner lies within it, so that no receiver outside is told anything else,
+/// and whoever looks up such a cell knows that it is no place for a receiver. Before the border is opened.
+void close_solid(OcclusionGrid& grid, std::span<const std::uint8_t> inside);
+
 /// |u| from which `fade` acts: 7/8, or the last sample but one along some axis.
 float faded_from(const OcclusionGrid& grid);
 
@@ -65,7 +70,8 @@ float faded_from(const OcclusionGrid& grid);
 void open_border(OcclusionGrid& grid, GridBorder how);
 
 /// 8-bit storage: share as unorm8 (32 KiB at 32^3), or four bytes a sample (128 KiB): 4 direction as snorm8 + 128, then
-/// the share as unorm8. Off by at most 1/510 of the share and 1/1016 of each component of the direction.
+/// the share as unorm8. Off by at most 1/510 of the share and 1/1016 of each component of the direction; 255 stands for
+/// a share of 1 alone, so that shares from 0.998 on are off by 1/255.
 std::vector<std::uint8_t> packed_share(const OcclusionGrid& grid);
 std::vector<std::uint8_t> packed_cone(const OcclusionGrid& grid);
 

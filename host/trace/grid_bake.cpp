@@ -66,9 +66,11 @@ class SampleTracer {
         blocked_(points.size()),
         hits_(points.size()) {}
 
-  OccludedDirections operator()(const glm::vec3& position, std::size_t index) {
+  /// Notes in `inside` whether the sample is within the solid.
+  OccludedDirections operator()(const glm::vec3& position, std::size_t index, std::uint8_t& inside) {
     const OccludedDirections here = trace_from(position, index);
-    return here.share < 1 ? here : trace_from(beside_surface(position), index);
+    inside = here.share >= 1;
+    return inside ? trace_from(beside_surface(position), index) : here;
   }
 
  private:
@@ -112,7 +114,10 @@ class SampleTracer {
   std::vector<Hit> hits_;
 };
 
-void trace(OcclusionGrid& grid, const Tracer& tracer, const Ball& ball, const GridSettings& settings) {
+/// Returns for each sample whether it lies within the solid.
+std::vector<std::uint8_t> trace(OcclusionGrid& grid, const Tracer& tracer, const Ball& ball,
+                                const GridSettings& settings) {
+  std::vector<std::uint8_t> inside(grid.samples());
   const std::vector<glm::vec2> points = ordered_points(settings.rays, settings.seed);
   const std::size_t rows = std::size_t(grid.size[1]) * grid.size[2];
   tbb::parallel_for(std::size_t(0), rows, [&](std::size_t row) {
@@ -120,11 +125,12 @@ void trace(OcclusionGrid& grid, const Tracer& tracer, const Ball& ball, const Gr
     const auto y = static_cast<std::uint32_t>(row % grid.size[1]), z = static_cast<std::uint32_t>(row / grid.size[1]);
     for (std::uint32_t x = 0; x < grid.size[0]; ++x) {
       const std::size_t i = row * grid.size[0] + x;
-      const OccludedDirections occluded = sample(grid.position(x, y, z), i);
+      const OccludedDirections occluded = sample(grid.position(x, y, z), i, inside[i]);
       grid.share[i] = occluded.share;
       if (grid.has_direction()) grid.direction[i] = occluded.direction;
     }
   });
+  return inside;
 }
 
 }  // namespace
@@ -175,8 +181,9 @@ OcclusionGrid bake_grid(std::span<const glm::vec3> vertices, std::span<const std
     ball.radius = std::max(ball.radius, glm::distance(ball.centre, vertices[index]));
   ball.radius *= 1.0001f;
   const Tracer tracer(vertices, triangles);
-  trace(grid, tracer, ball, settings);
+  const std::vector<std::uint8_t> inside = trace(grid, tracer, ball, settings);
   fill_inside(grid);
+  close_solid(grid, inside);
   open_border(grid, settings.border);
   return grid;
 }

@@ -21,10 +21,10 @@ struct GridSettings {
 
 /// `vertices`: m, frame of the body; `triangles`: three indices each, any winding: both sides block. Samples that lie
 /// within a closed mesh see it all around and get what the nearest point of its surface sees, or else what their
-/// neighbours do (fill_inside); an open or flat mesh has none. Rays go to the body's
-/// bounding sphere only, so that far samples are as exact as near ones. The same input gives the same bits for any
-/// thread count. Throws Error(invalid_input) for a mesh without triangles or of no extent, vertices that are not
-/// finite, and settings out of range or whose memory would not fit.
+/// neighbours do (fill_inside), but those whose neighbours lie within it too are marked (close_solid); an open or flat
+/// mesh has none. Rays go to the body's bounding sphere only, so that far samples are as exact as near ones. The same
+/// input gives the same bits for any thread count. Throws Error(invalid_input) for a mesh without triangles or of no
+/// extent, vertices that are not finite, and settings out of range or whose memory would not fit.
 OcclusionGrid bake_grid(std::span<const glm::vec3> vertices, std::span<const std::uint32_t> triangles,
                         const GridSettings& settings);
 

@@ -8,7 +8,7 @@ namespace understory {
 namespace {
 
 /// Raised whenever the same mesh and settings give another grid, or the layout of its bytes changes.
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 ContentHash hash_of(std::span<const glm::vec3> vertices, std::span<const std::uint32_t> triangles,
                     const GridSettings& settings) {

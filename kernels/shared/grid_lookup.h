@@ -73,20 +73,24 @@ SHARED void grid_cells(const GridSamples of, real at_x, real at_y, real at_z, pr
   STORE(z, cells->z, 0);
 }
 
-/// Four bytes a sample, as they are: [0, 255].
+/// Four bytes a sample, as they are, [0, 255], and the largest fourth byte of the eight samples about a point.
 typedef struct {
-  real x, y, z, w;
+  real x, y, z, w, largest_w;
 } FourBytes;
 
 SHARED FourBytes look_up_four(const GridSamples of, global const uchar* samples, real at_x, real at_y, real at_z) {
   GridCells cells;
   grid_cells(of, at_x, at_y, at_z, &cells);
   const size_t row = 4 * (size_t)of.width, slab = row * of.height;
-  float x[W], y[W], z[W], w[W];
+  float x[W], y[W], z[W], w[W], largest_w[W];
   for (int lane = 0; lane < W; ++lane) {
     global const uchar* corner = samples + 4 * (size_t)cells.sample[lane];
-    const float8 a = convert_float8(vload8(0, corner)), b = convert_float8(vload8(0, corner + row));
-    const float8 c = convert_float8(vload8(0, corner + slab)), d = convert_float8(vload8(0, corner + slab + row));
+    const uchar8 near_low = vload8(0, corner), near_high = vload8(0, corner + row);
+    const uchar8 far_low = vload8(0, corner + slab), far_high = vload8(0, corner + slab + row);
+    const uchar8 largest = max(max(near_low, near_high), max(far_low, far_high));
+    largest_w[lane] = (float)max(largest.s3, largest.s7);
+    const float8 a = convert_float8(near_low), b = convert_float8(near_high);
+    const float8 c = convert_float8(far_low), d = convert_float8(far_high);
     const float8 up = (float8)(cells.y[lane]);
     const float8 low = fma(b - a, up, a), high = fma(d - c, up, c);
     const float8 edge = fma(high - low, (float8)(cells.z[lane]), low);
@@ -96,13 +100,19 @@ SHARED FourBytes look_up_four(const GridSamples of, global const uchar* samples,
     z[lane] = mean.z;
     w[lane] = mean.w;
   }
-  const FourBytes mean = {LOAD(x, 0), LOAD(y, 0), LOAD(z, 0), LOAD(w, 0)};
+  const FourBytes mean = {LOAD(x, 0), LOAD(y, 0), LOAD(z, 0), LOAD(w, 0), LOAD(largest_w, 0)};
   return mean;
 }
 
-/// Share and mean direction, in the body's frame; `samples`: packed_cone.
-SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+/// A share that samples hold within the solid alone, where their neighbours lie too: then so does all of the cell.
+#define SOLID_BYTE REAL(255.0)
+
+/// Share and mean direction, in the body's frame; `samples`: packed_cone. Adds to `solid` the lanes of `inside` that are
+/// within the body.
+SHARED Occluded look_up_cone(global const GridRecord* grid, global const uchar* samples, const GridPoint p,
+                             truth inside, private truth* solid) {
   const FourBytes mean = look_up_four(samples_of(grid), samples, p.x, p.y, p.z);
+  *solid |= inside & (mean.largest_w >= SOLID_BYTE);
   const real scale = REAL(1.9685039370078740e-3);  // 1/(4 127)
   const Occluded o = {mean.w * REAL(3.9215686274509804e-3),  // 1/255
                       (mean.x - REAL(128.0)) * scale, (mean.y - REAL(128.0)) * scale, (mean.z - REAL(128.0)) * scale};
@@ -129,21 +139,27 @@ SHARED real look_up_own(global const GridRecord* grid, global const uchar* sampl
   return at_most(at_least(sum * REAL(7.8740157480314961e-3), REAL(0.0)), REAL(1.0));
 }
 
-/// Share of a scalar grid; `samples`: one byte each.
-SHARED real look_up_share(global const GridRecord* grid, global const uchar* samples, const GridPoint p) {
+/// Share of a scalar grid; `samples`: one byte each. `inside`, `solid`: as above.
+SHARED real look_up_share(global const GridRecord* grid, global const uchar* samples, const GridPoint p, truth inside,
+                          private truth* solid) {
   GridCells cells;
   grid_cells(samples_of(grid), p.x, p.y, p.z, &cells);
   const size_t row = grid->width, slab = row * grid->height;
-  float share[W];
+  float share[W], largest[W];
   for (int lane = 0; lane < W; ++lane) {
     global const uchar* corner = samples + cells.sample[lane];
-    const float2 a = convert_float2(vload2(0, corner)), b = convert_float2(vload2(0, corner + row));
-    const float2 c = convert_float2(vload2(0, corner + slab)), d = convert_float2(vload2(0, corner + slab + row));
+    const uchar2 near_low = vload2(0, corner), near_high = vload2(0, corner + row);
+    const uchar2 far_low = vload2(0, corner + slab), far_high = vload2(0, corner + slab + row);
+    const uchar2 both = max(max(near_low, near_high), max(far_low, far_high));
+    largest[lane] = (float)max(both.x, both.y);
+    const float2 a = convert_float2(near_low), b = convert_float2(near_high);
+    const float2 c = convert_float2(far_low), d = convert_float2(far_high);
     const float2 up = (float2)(cells.y[lane]);
     const float2 low = fma(b - a, up, a), high = fma(d - c, up, c);
     const float2 edge = fma(high - low, (float2)(cells.z[lane]), low);
     share[lane] = fma(edge.y - edge.x, cells.x[lane], edge.x);
   }
+  *solid |= inside & (LOAD(largest, 0) >= SOLID_BYTE);
   return LOAD(share, 0) * REAL(3.9215686274509804e-3);
 }
 

@@ -74,6 +74,35 @@ TEST(GridBake, FillsTheInsideFromItsNeighbours) {
   EXPECT_EQ(grid.share[0], 1);
 }
 
+TEST(GridBake, TellsTheSolidWhereNoReceiverCanBe) {
+  GridSettings settings = coarse({33, 32, 34});
+  settings.stretch = 2;
+  const OcclusionGrid grid = baked(cube(), settings);
+  const std::vector<std::uint8_t> bytes = packed_share(grid);
+  const auto inside = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return glm::all(glm::lessThan(glm::abs(grid.position(x, y, z)), glm::vec3(0.5f)));
+  };
+  std::size_t solid = 0;
+  for (std::uint32_t z = 0; z < 34; ++z)
+    for (std::uint32_t y = 0; y < 32; ++y)
+      for (std::uint32_t x = 0; x < 33; ++x) {
+        const std::size_t i = (std::size_t(z) * 32 + y) * 33 + x;
+        // The neighbours span a box that lies in the cube where two of its corners do.
+        const bool surrounded = inside(x, y, z) && inside(x - 1, y - 1, z - 1) && inside(x + 1, y + 1, z + 1);
+        EXPECT_EQ(grid.share[i] == 1, surrounded);
+        EXPECT_EQ(bytes[i] == 255, surrounded);
+        if (surrounded) {
+          EXPECT_EQ(grid.direction[i], glm::vec3(0));
+        }
+        solid += surrounded;
+      }
+  EXPECT_GT(solid, 20u);
+  OcclusionGrid nearly = grid;
+  nearly.share.assign(grid.samples(), 0.9985f);
+  EXPECT_EQ(packed_share(nearly)[0], 254) << "no crevice is taken for the solid";
+  EXPECT_NE(message_of(ErrorKind::unexpected, [&] { close_solid(nearly, {}); }).find("one flag"), std::string::npos);
+}
+
 TEST(GridBake, BothBordersAreOpenAndRescaleCanBeUndone) {
   GridSettings settings = coarse();
   const TestMesh mesh = cube();
@@ -87,7 +116,7 @@ TEST(GridBake, BothBordersAreOpenAndRescaleCanBeUndone) {
       EXPECT_EQ(fade.share[i], 0);
       EXPECT_EQ(rescaled.share[i], 0);
     }
-    EXPECT_LT(fade.share[i], 1) << "inside is filled";
+    if (fade.share[i] == 1) continue;  // within the solid
     EXPECT_LE(glm::length(fade.direction[i]), fade.share[i] * (1 - fade.share[i]) + 0.03f);
   }
   // In the middle nothing is faded: there the rescale is eq. (V - M)/(1 - M) of the same number.

@@ -124,6 +124,38 @@ TEST_F(OccluderGridsTest, ABoxShadesTheGroundBesideItAndNotItself) {
   }
 }
 
+TEST_F(OccluderGridsTest, WhatIsInsideASolidIsTold) {
+  // The camera is in a box of 1 m and looks at a small one in its middle; behind that, at the wall.
+  Scene scene = box_on_ground();
+  OccluderSource small = scene.occluders[0];
+  small.name = small.parts[0].name = "small";
+  small.parts[0].size = glm::dvec3(0.2);
+  scene.occluders.push_back(small);
+  scene.camera.position = {0.95, 0.1, 0.6};
+  scene.camera.target = {0.5, 0, 0.5};
+  scene.camera.near_plane = 0.01;
+  scene.methods.grid.size = 32;
+  for (const char* method : {"grid", "grid-cone"}) {
+    scene.methods.occluders = method;
+    const World world = build_world(scene);
+    Device device;
+    FrameRunner runner(device, world);
+    const Frame frame = runner.render(0, 0);
+    std::size_t on_small = 0, on_wall = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      const glm::dvec3 p = glm::abs(position_at(frame, i) - glm::dvec3(0.5, 0, 0.5));
+      const bool is_small = std::max({p.x, p.y, p.z}) < 0.11;
+      ++(is_small ? on_small : on_wall);
+      EXPECT_EQ((frame.validity[i] & validity::occluder_too_close) != 0, is_small) << method << ' ' << i;
+      if (is_small) {
+        EXPECT_LT(frame.terms.at(method)[i], 0.05f);
+      }
+    }
+    EXPECT_GT(on_small, 50u);
+    EXPECT_GT(on_wall, 50u);
+  }
+}
+
 TEST_F(OccluderGridsTest, BodiesOutOfViewStillShadeWhatIsInView) {
   Scene scene = box_on_ground();
   scene.methods.occluders = "grid-cone";

@@ -82,6 +82,32 @@ TEST(Grid, BorderIsFlaggedAndOutsideIsNot) {
   EXPECT_EQ(shade("grid", fragments, {body}).validity, (std::vector<std::uint32_t>{0, validity::grid_border, 0}));
 }
 
+TEST(Grid, TellsWhatIsInsideTheSolid) {
+  UNDERSTORY_NEEDS_DEVICE();
+  GridSettings settings = coarse({32, 32, 32});
+  settings.stretch = 2;
+  const TestMesh mesh = cube();
+  GridBody body;
+  body.grid = bake_grid(mesh.vertices, mesh.triangles, settings);
+  const glm::vec3 cell = body.grid.position(16, 16, 16) - body.grid.position(15, 15, 15);
+  const float deep = 0.5f - 2 * 1.2f * cell.x;  // two samples, which lie wider apart towards the faces
+  ASSERT_GT(deep, 0.2f);
+  std::vector<TestFragment> fragments;
+  std::vector<bool> within;
+  for (const glm::vec3 towards : {glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0.3f, -1, 0.9f), glm::vec3(-1, 1, -1)})
+    for (const float reach : {deep, 0.5f, 0.501f, 0.6f, 1.0f, 2.0f}) {
+      if (towards == glm::vec3(0) && reach != deep) continue;
+      fragments.push_back({reach * towards, glm::vec3(0, 0, 1), 1});
+      within.push_back(reach == deep);
+    }
+  for (const char* method : {"grid", "grid-self-paper"}) {
+    const Shaded shaded = shade(method, fragments, {body});
+    for (std::size_t i = 0; i < fragments.size(); ++i)
+      EXPECT_EQ((shaded.validity[i] & validity::occluder_too_close) != 0, within[i]) << method << ' ' << i;
+    EXPECT_EQ(shaded.visibility[0], 0) << "nothing of the sky is seen from within";
+  }
+}
+
 TEST(Grid, MoreBodiesThanATileListsAreAllTried) {
   UNDERSTORY_NEEDS_DEVICE();
   std::vector<GridBody> bodies = random_bodies(300);

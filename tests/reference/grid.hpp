@@ -56,9 +56,10 @@ inline double cone_blocked(const GridBody& body, const TestFragment& f, bool pap
   const OccludedDirections o = look_up(body, f, true);
   const glm::dvec3 mean = body.rotation * glm::dvec3(o.direction);
   const double share = double(o.share), length = glm::length(mean);
-  if (share < 1e-9 || length < 1e-9) return 0;
+  if (share < 1e-9) return 0;
   const double aperture = paper ? share : std::clamp(1 - length / share, share, 1.0);
-  const double angle = std::acos(std::clamp(glm::dot(mean / length, glm::dvec3(f.normal)), -1.0, 1.0));
+  const glm::dvec3 axis = length < 1e-9 ? glm::dvec3(0) : mean / length;  // of all directions or none: any
+  const double angle = std::acos(std::clamp(glm::dot(axis, glm::dvec3(f.normal)), -1.0, 1.0));
   return share / aperture * clipped_cosine(aperture, angle);
 }
 
