@@ -108,15 +108,23 @@ TradeoffTable tradeoff_for_budget(Device& device, World& world, TradeoffOptions 
   return table;
 }
 
+ErrorsOnFrames::ErrorsOnFrames(Device& device, World& world, const TradeoffOptions& options)
+    : device_(device), world_(world), options_(options) {}
+ErrorsOnFrames::~ErrorsOnFrames() = default;
+
 void ErrorsOnFrames::look_at(const std::vector<const TradeoffRow*>& rows, const std::vector<int>& frames) {
   std::vector<const TradeoffRow*> unknown;
   for (const TradeoffRow* row : rows)
     if (!found_.contains({frames, row->name})) unknown.push_back(row);
   if (unknown.empty()) return;
-  TradeoffJudge judge(device_, world_, {frames, options_.pixels, options_.rays, false});
+  if (judge_)
+    judge_->look_at(frames);
+  else
+    judge_ =
+        std::make_unique<TradeoffJudge>(device_, world_, JudgeOptions{frames, options_.pixels, options_.rays, false});
   for (const TradeoffRow* row : unknown) {
-    judge.choose(row->variant);
-    found_[{frames, row->name}] = judge.view_errors(judge.values().visibility);
+    judge_->choose(row->variant);
+    found_[{frames, row->name}] = judge_->view_errors(judge_->values().visibility);
   }
 }
 

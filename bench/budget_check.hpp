@@ -2,6 +2,7 @@
 // whether the choice keeps its promise on frames that it was not made by.
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "bench/budget.hpp"
 
 namespace understory {
+
+class TradeoffJudge;
 
 /// Frames by which methods are chosen, and others on which a choice is checked; each by both cameras.
 inline constexpr int frames_to_choose_by = 4, frames_to_check = 3;
@@ -24,10 +27,11 @@ TradeoffTable tradeoff_for_budget(Device& device, World& world, TradeoffOptions 
 /// What rows err on frames of the scene, by both cameras, as TradeoffRow::views. Whatever was found once is kept.
 class ErrorsOnFrames {
  public:
-  /// Device and world must outlive it. Pixels and rays are those of `options`.
-  ErrorsOnFrames(Device& device, World& world, const TradeoffOptions& options)
-      : device_(device), world_(world), options_(options) {}
-  /// Looks at several rows together: the frames are traced and uploaded once.
+  /// Device and world must outlive it; the world's camera moves from the first look until it goes. Pixels and rays are
+  /// those of `options`.
+  ErrorsOnFrames(Device& device, World& world, const TradeoffOptions& options);
+  ~ErrorsOnFrames();
+  /// Looks at several rows together. Frames are traced once, plants uploaded once.
   void look_at(const std::vector<const TradeoffRow*>& rows, const std::vector<int>& frames);
   const std::vector<ViewError>& of(const TradeoffRow& row, const std::vector<int>& frames);
 
@@ -35,6 +39,7 @@ class ErrorsOnFrames {
   Device& device_;
   World& world_;
   TradeoffOptions options_;
+  std::unique_ptr<TradeoffJudge> judge_;                                              // from the first look on
   std::map<std::pair<std::vector<int>, std::string>, std::vector<ViewError>> found_;  // by frames and name of the row
 };
 

@@ -165,6 +165,8 @@ std::vector<TradeoffRow> Measuring::rows() const {
       row.wall_ms = spread_of(record.samples.wall_ms);
       for (const auto& [pass, milliseconds] : record.samples.pass_ms)
         row.pass_ms[pass] = pass == "resolve" ? times.resolve_ms(row.variant) : spread_of(milliseconds);
+      for (const auto& [pass, milliseconds] : record.samples.pass_wall_ms)
+        row.pass_wall_ms[pass] = spread_of(milliseconds);
       row.frame_ms = row.ms.median + spread_of(drawing[row.variant.shrink]).median;
     }
     if (const auto found = predicted_.find(name); found != predicted_.end()) {

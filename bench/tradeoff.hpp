@@ -61,12 +61,13 @@ struct TradeoffRow {
   /// rounds; the resolve's share is shared with all variants that resolve alike (bench/tradeoff_times.hpp). What comes
   /// before (posing, drawing) does not depend on the methods.
   Spread95 ms;
-  Spread95 wall_ms;                         // the same passes on the host's clock
-  double frame_ms = 0;                      // ms + drawing: device time of a whole frame
-  std::map<std::string, Spread95> pass_ms;  // device time by pass, of those in `ms`
-  double start_s = 0;                       // building programs and uploading tables; a bake not included
-  double bake_s = -1;                       // to bake what the methods need, from nothing; -1: not measured
-  double mib = 0;                           // device buffers while it runs
+  Spread95 wall_ms;                              // the same passes on the host's clock
+  double frame_ms = 0;                           // ms + drawing: device time of a whole frame
+  std::map<std::string, Spread95> pass_ms;       // device time by pass, of those in `ms`
+  std::map<std::string, Spread95> pass_wall_ms;  // host's clock by pass, each waited for; with what the host prepares
+  double start_s = 0;                            // building programs and uploading tables; a bake not included
+  double bake_s = -1;                            // to bake what the methods need, from nothing; -1: not measured
+  double mib = 0;                                // device buffers while it runs
   RmseInterval error;
   std::map<std::string, RmseInterval> classes;  // tree, grass, ground, occluder
   std::vector<ViewError> views;
@@ -97,7 +98,7 @@ struct TradeoffOptions {
   int frames = 3;                // judged, spread over the scene's; each with the one that follows it
   std::size_t pixels = 2000;     // judged per view, one in each cell of a grid over the image, at random
   int rays = 512;                // per judged pixel
-  int rounds = 9;                // timed per view and sweep
+  int rounds = 9;                // timed per view and sweep, at most: TradeoffJudge::time
   int sweeps = 3;                // over the combinations that are measured whole, forwards and backwards
   int combinations = 16;         // of the predicted front that are measured whole, at most
   bool runnable_only = false;    // only what a run may be made with: no half size, no relaxed maths, no pictures

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/spread_json.hpp"
 #include "sim/error.hpp"
 #include "sim/files/scene_file.hpp"
 
@@ -28,39 +29,29 @@ Methods methods_from_json(const Json& json) {
   return load_methods(overrides);
 }
 
-Json spread_json(const Spread95& spread) {
-  return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
-}
-
-Spread95 spread_from_json(const Json& json) {
-  return {json.at("median").get<double>(), json.at("low").get<double>(), json.at("high").get<double>()};
-}
-
-Json error_json(const RmseInterval& error) {
-  return {{"rmse", error.rmse}, {"rmse_low", error.low},  {"rmse_high", error.high},
-          {"bias", error.bias}, {"pixels", error.pixels}, {"truth_noise", error.truth_noise}};
-}
-
-RmseInterval error_from_json(const Json& json) {
-  RmseInterval error;
-  json.at("rmse").get_to(error.rmse);
-  json.at("rmse_low").get_to(error.low);
-  json.at("rmse_high").get_to(error.high);
-  json.at("bias").get_to(error.bias);
-  json.at("pixels").get_to(error.pixels);
-  json.at("truth_noise").get_to(error.truth_noise);
-  return error;
-}
+constexpr JsonFields error_fields{
+    JsonField{"rmse", &RmseInterval::rmse},      JsonField{"rmse_low", &RmseInterval::low},
+    JsonField{"rmse_high", &RmseInterval::high}, JsonField{"bias", &RmseInterval::bias},
+    JsonField{"pixels", &RmseInterval::pixels},  JsonField{"truth_noise", &RmseInterval::truth_noise}};
+constexpr JsonFields temporal_fields{JsonField{"rmse_dvdt", &TemporalError::rmse_dvdt},
+                                     JsonField{"truth_dvdt", &TemporalError::truth_dvdt},
+                                     JsonField{"flicker", &TemporalError::flicker}};
+constexpr JsonFields prediction_fields{JsonField{"combinations", &PredictionQuality::combinations},
+                                       JsonField{"measured", &PredictionQuality::measured},
+                                       JsonField{"ms_bias", &PredictionQuality::ms_bias},
+                                       JsonField{"ms_worst", &PredictionQuality::ms_worst},
+                                       JsonField{"rmse_bias", &PredictionQuality::rmse_bias},
+                                       JsonField{"rmse_worst", &PredictionQuality::rmse_worst}};
 
 Json classes_json(const std::map<std::string, RmseInterval>& classes) {
   Json json = Json::object();
-  for (const auto& [name, error] : classes) json[name] = error_json(error);
+  for (const auto& [name, error] : classes) json[name] = error_fields.write(error);
   return json;
 }
 
 std::map<std::string, RmseInterval> classes_from_json(const Json& json) {
   std::map<std::string, RmseInterval> classes;
-  for (const auto& [name, error] : json.items()) classes[name] = error_from_json(error);
+  for (const auto& [name, error] : json.items()) classes[name] = error_fields.read(error);
   return classes;
 }
 
@@ -68,9 +59,27 @@ Json views_json(const std::vector<ViewError>& views) {
   Json all = Json::array();
   for (const ViewError& view : views) {
     Json one = {{"camera", view.camera}, {"frame", view.frame}};
-    one.update(error_json(view.all));
+    one.update(error_fields.write(view.all));
     one["classes"] = classes_json(view.classes);
     all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// Medians under one key, intervals under another.
+void write_passes(Json& json, const char* medians, const char* intervals, const std::map<std::string, Spread95>& all) {
+  json[medians] = json[intervals] = Json::object();
+  for (const auto& [pass, ms] : all) {
+    json[medians][pass] = ms.median;
+    json[intervals][pass] = {ms.low, ms.high};
+  }
+}
+
+std::map<std::string, Spread95> passes_from_json(const Json& json, const char* medians, const char* intervals) {
+  std::map<std::string, Spread95> all;
+  for (const auto& [pass, median] : json.at(medians).items()) {
+    const Json& interval = json.at(intervals).at(pass);
+    all[pass] = {median.get<double>(), interval.at(0).get<double>(), interval.at(1).get<double>()};
   }
   return all;
 }
@@ -95,26 +104,19 @@ Json row_json(const TradeoffRow& row) {
                {"ms", row.ms.median},
                {"ms_low", row.ms.low},
                {"ms_high", row.ms.high}};
-  json.update(error_json(row.error));
+  json.update(error_fields.write(row.error));
   json["mib"] = row.mib;
   json["pareto"] = row.pareto;
   json["ties"] = row.ties;
-  json["wall_ms"] = spread_json(row.wall_ms);
+  json["wall_ms"] = spread_fields.write(row.wall_ms);
   json["frame_ms"] = row.frame_ms;
-  json["pass_ms"] = json["pass_interval_ms"] = Json::object();
-  for (const auto& [pass, ms] : row.pass_ms) {
-    json["pass_ms"][pass] = ms.median;
-    json["pass_interval_ms"][pass] = {ms.low, ms.high};
-  }
+  write_passes(json, "pass_ms", "pass_interval_ms", row.pass_ms);
+  write_passes(json, "pass_wall_ms", "pass_wall_interval_ms", row.pass_wall_ms);
   json["start_s"] = row.start_s;
   json["bake_s"] = row.bake_s < 0 ? Json(nullptr) : Json(row.bake_s);
   json["classes"] = classes_json(row.classes);
   json["views"] = views_json(row.views);
-  json["temporal"] = nullptr;
-  if (row.temporal)
-    json["temporal"] = {{"rmse_dvdt", row.temporal->rmse_dvdt},
-                        {"truth_dvdt", row.temporal->truth_dvdt},
-                        {"flicker", row.temporal->flicker}};
+  json["temporal"] = row.temporal ? temporal_fields.write(*row.temporal) : Json(nullptr);
   json["predicted_ms"] = known(row.predicted_ms);
   json["predicted_rmse"] = known(row.predicted_rmse);
   return json;
@@ -130,25 +132,21 @@ TradeoffRow row_from_json(const Json& json) {
   json.at("verified").get_to(row.verified);
   json.at("failure").get_to(row.failure);
   row.ms = {json.at("ms").get<double>(), json.at("ms_low").get<double>(), json.at("ms_high").get<double>()};
-  row.error = error_from_json(json);
+  row.error = error_fields.read(json);
   json.at("mib").get_to(row.mib);
   json.at("pareto").get_to(row.pareto);
   json.at("ties").get_to(row.ties);
-  row.wall_ms = spread_from_json(json.at("wall_ms"));
+  row.wall_ms = spread_fields.read(json.at("wall_ms"));
   json.at("frame_ms").get_to(row.frame_ms);
-  for (const auto& [pass, median] : json.at("pass_ms").items()) {
-    const Json& interval = json.at("pass_interval_ms").at(pass);
-    row.pass_ms[pass] = {median.get<double>(), interval.at(0).get<double>(), interval.at(1).get<double>()};
-  }
+  row.pass_ms = passes_from_json(json, "pass_ms", "pass_interval_ms");
+  row.pass_wall_ms = passes_from_json(json, "pass_wall_ms", "pass_wall_interval_ms");
   json.at("start_s").get_to(row.start_s);
   row.bake_s = optional_number(json, "bake_s").value_or(-1);
   row.classes = classes_from_json(json.at("classes"));
   for (const Json& view : json.at("views"))
-    row.views.push_back({view.at("camera").get<int>(), view.at("frame").get<int>(), error_from_json(view),
+    row.views.push_back({view.at("camera").get<int>(), view.at("frame").get<int>(), error_fields.read(view),
                          classes_from_json(view.at("classes"))});
-  if (const Json& temporal = json.at("temporal"); !temporal.is_null())
-    row.temporal = TemporalError{temporal.at("rmse_dvdt").get<double>(), temporal.at("truth_dvdt").get<double>(),
-                                 temporal.at("flicker").get<double>()};
+  if (const Json& temporal = json.at("temporal"); !temporal.is_null()) row.temporal = temporal_fields.read(temporal);
   row.predicted_ms = optional_number(json, "predicted_ms");
   row.predicted_rmse = optional_number(json, "predicted_rmse");
   return row;
@@ -158,7 +156,6 @@ std::string tradeoff_json(const TradeoffTable& table) {
   Json rows = Json::array(), drawing = Json::array();
   for (const TradeoffRow& row : table.rows) rows.push_back(row_json(row));
   for (const auto& [shrink, ms] : table.draw_ms) drawing.push_back({{"shrink", shrink}, {"ms", ms}});
-  const PredictionQuality& prediction = table.prediction;
   const Json json = {{"scene", table.scene},
                      {"device", table.device},
                      {"identity", table.identity},
@@ -167,13 +164,7 @@ std::string tradeoff_json(const TradeoffTable& table) {
                      {"pixels", table.pixels},
                      {"rays", table.rays},
                      {"draw_ms", drawing},
-                     {"prediction",
-                      {{"combinations", prediction.combinations},
-                       {"measured", prediction.measured},
-                       {"ms_bias", prediction.ms_bias},
-                       {"ms_worst", prediction.ms_worst},
-                       {"rmse_bias", prediction.rmse_bias},
-                       {"rmse_worst", prediction.rmse_worst}}},
+                     {"prediction", prediction_fields.write(table.prediction)},
                      {"rows", rows}};
   return json.dump(1) + "\n";
 }
@@ -191,13 +182,7 @@ TradeoffTable read_tradeoff(const std::string& text, const std::string& where) {
     json.at("rays").get_to(table.rays);
     for (const Json& drawing : json.at("draw_ms"))
       table.draw_ms[drawing.at("shrink").get<int>()] = drawing.at("ms").get<double>();
-    const Json& prediction = json.at("prediction");
-    prediction.at("combinations").get_to(table.prediction.combinations);
-    prediction.at("measured").get_to(table.prediction.measured);
-    prediction.at("ms_bias").get_to(table.prediction.ms_bias);
-    prediction.at("ms_worst").get_to(table.prediction.ms_worst);
-    prediction.at("rmse_bias").get_to(table.prediction.rmse_bias);
-    prediction.at("rmse_worst").get_to(table.prediction.rmse_worst);
+    prediction_fields.read(json.at("prediction"), table.prediction);
     for (const Json& row : json.at("rows")) table.rows.push_back(row_from_json(row));
     return table;
   } catch (const nlohmann::json::exception& error) {

@@ -12,6 +12,8 @@ namespace understory {
 namespace {
 
 constexpr double z95 = 1.96;  // of the normal distribution, two-sided 95 %
+constexpr double seconds_of_a_visit = 1;
+constexpr int least_rounds = 3;
 
 /// Of (value - truth)^2 less the truth's variance: an unbiased estimate of the squared error at one pixel.
 class SquaredErrors {
@@ -70,9 +72,23 @@ bool is_drawing(const std::string& pass) {
 }  // namespace
 
 TradeoffJudge::TradeoffJudge(Device& device, World& world, const JudgeOptions& options)
-    : device_(device), world_(world), runner_(device, world), image_(world.scene.image), camera_(world.scene.camera) {
-  choose(bare_variant(world.scene));
-  views_ = judged_views(runner_, world_, options);
+    : device_(device),
+      world_(world),
+      runner_(device, world),
+      image_(world.scene.image),
+      camera_(world.scene.camera),
+      options_(options) {
+  look_at(options.frames);
+}
+
+void TradeoffJudge::look_at(const std::vector<int>& frames) {
+  auto found = traced_.find(frames);
+  if (found == traced_.end()) {
+    options_.frames = frames;
+    choose(bare_variant(world_.scene));
+    found = traced_.emplace(frames, judged_views(runner_, world_, options_)).first;
+  }
+  views_ = &found->second;
 }
 
 TradeoffJudge::~TradeoffJudge() {
@@ -99,10 +115,11 @@ Frame TradeoffJudge::render(const JudgedView& view, double time) {
 
 JudgedValues TradeoffJudge::values(int rounds, ShadingSamples* samples) {
   JudgedValues values;
-  for (const JudgedView& view : views_) {
+  for (const JudgedView& view : *views_) {
     const Frame frame = render(view, view.time);
-    if (&view == &views_.front() && render(view, view.time).visibility != frame.visibility)
+    if (&view == &views_->front() && render(view, view.time).visibility != frame.visibility)
       throw Error(ErrorKind::unexpected, fmt::format("frame {} rendered twice gives two results", view.frame));
+    if (samples && &view == &views_->front()) rounds = rounds_within_reason(frame, rounds);
     if (samples) time_view(frame, rounds, *samples);
     for (const std::uint32_t pixel : view.pixels) {
       const std::size_t i = seen_pixel(pixel, frame);
@@ -116,18 +133,26 @@ JudgedValues TradeoffJudge::values(int rounds, ShadingSamples* samples) {
 
 std::vector<float> TradeoffJudge::following() {
   std::vector<float> visibility;
-  for (const JudgedView& view : views_) {
+  for (const JudgedView& view : *views_) {
     const Frame next = render(view, view.next_time);
     for (const std::uint32_t pixel : view.pixels) visibility.push_back(next.visibility[seen_pixel(pixel, next)]);
   }
   return visibility;
 }
 
+int TradeoffJudge::rounds_within_reason(const Frame& frame, int most) const {
+  double shading_ms = 0;
+  for (const auto& [pass, milliseconds] : frame.pass_ms)
+    if (!is_drawing(pass)) shading_ms += milliseconds;
+  const double fitting = 1000 * seconds_of_a_visit / std::max(shading_ms * static_cast<double>(views_->size()), 1e-3);
+  return std::min(most, static_cast<int>(std::clamp(fitting, double{least_rounds}, 1e6)));
+}
+
 void TradeoffJudge::time_view(const Frame& frame, int rounds, ShadingSamples& samples) {
   const auto count = static_cast<std::size_t>(rounds);
   samples.device_ms.resize(count);
   samples.wall_ms.resize(count);
-  const double share = 1 / static_cast<double>(views_.size());
+  const double share = 1 / static_cast<double>(views_->size());
   for (const auto& [pass, milliseconds] : frame.pass_ms)
     if (is_drawing(pass)) samples.draw_ms += share * milliseconds;
   for (std::size_t round = 0; round < count; ++round) {
@@ -140,13 +165,23 @@ void TradeoffJudge::time_view(const Frame& frame, int rounds, ShadingSamples& sa
       samples.device_ms[round] += share * milliseconds;
     }
   }
+  // Waiting for each pass keeps others from overlapping it, which is another thing than the frame: rounds of their own.
+  const std::size_t waited = (count + 2) / 3;
+  for (std::size_t round = 0; round < waited; ++round)
+    for (const auto& [pass, milliseconds] : device_.host_pass_times([&] { runner_.shade_again(); })) {
+      std::vector<double>& all = samples.pass_wall_ms[pass];
+      all.resize(waited);
+      all[round] += share * milliseconds;
+    }
 }
 
 ShadingSamples TradeoffJudge::time(int rounds) {
   ShadingSamples samples;
-  for (const JudgedView& view : views_) {
+  for (const JudgedView& view : *views_) {
     look_from(view);
-    time_view(runner_.render(view.frame, view.time), rounds, samples);
+    const Frame frame = runner_.render(view.frame, view.time);
+    if (&view == &views_->front()) rounds = rounds_within_reason(frame, rounds);
+    time_view(frame, rounds, samples);
   }
   return samples;
 }
@@ -180,7 +215,7 @@ std::size_t TradeoffJudge::seen_pixel(std::uint32_t pixel, const Frame& frame) c
 
 RmseInterval TradeoffJudge::error(const std::vector<float>& visibility) const {
   SquaredErrors errors;
-  for_each_pixel(views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
+  for_each_pixel(*views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
     errors.add(double(visibility.at(all)), view.truth, i);
   });
   return errors.interval();
@@ -188,7 +223,7 @@ RmseInterval TradeoffJudge::error(const std::vector<float>& visibility) const {
 
 std::map<std::string, RmseInterval> TradeoffJudge::class_errors(const std::vector<float>& visibility) const {
   std::map<std::string, SquaredErrors> errors;
-  for_each_pixel(views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
+  for_each_pixel(*views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
     errors[judged_class_names.at(static_cast<std::size_t>(view.classes[i]))].add(double(visibility.at(all)), view.truth,
                                                                                  i);
   });
@@ -200,7 +235,7 @@ std::map<std::string, RmseInterval> TradeoffJudge::class_errors(const std::vecto
 std::vector<ViewError> TradeoffJudge::view_errors(const std::vector<float>& visibility) const {
   std::vector<ViewError> result;
   std::size_t all = 0;
-  for (const JudgedView& view : views_) {
+  for (const JudgedView& view : *views_) {
     SquaredErrors errors;
     std::map<std::string, SquaredErrors> classes;
     for (std::size_t i = 0; i < view.pixels.size(); ++i) {
@@ -222,7 +257,7 @@ TemporalError TradeoffJudge::temporal_error(const std::vector<float>& visibility
   TemporalError result;
   double squares = 0, truth_squares = 0;
   std::size_t count = 0;
-  for_each_pixel(views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
+  for_each_pixel(*views_, [&](const JudgedView& view, std::size_t i, std::size_t all) {
     if (view.following.rays.at(i) == 0) return;  // nothing is seen there any more
     const double per_second = 1 / (view.next_time - view.time);
     const double change = double(following.at(all)) - double(visibility.at(all));

@@ -33,6 +33,7 @@ void append(const ShadingSamples& more, ShadingSamples& all) {
   append(more.device_ms, all.device_ms);
   append(more.wall_ms, all.wall_ms);
   for (const auto& [pass, milliseconds] : more.pass_ms) append(milliseconds, all.pass_ms[pass]);
+  for (const auto& [pass, milliseconds] : more.pass_wall_ms) append(milliseconds, all.pass_wall_ms[pass]);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "bench/tradeoff_json.hpp"
 #include "sim/error.hpp"
 #include "sim/files/atomic_file.hpp"
+#include "sim/files/json_fields.hpp"
 
 namespace understory {
 namespace {
@@ -29,16 +30,18 @@ std::vector<T> from_binary(const Json& json) {
   return values;
 }
 
+constexpr JsonFields samples_fields{
+    JsonField{"device_ms", &ShadingSamples::device_ms}, JsonField{"wall_ms", &ShadingSamples::wall_ms},
+    JsonField{"pass_ms", &ShadingSamples::pass_ms}, JsonField{"pass_wall_ms", &ShadingSamples::pass_wall_ms},
+    JsonField{"draw_ms", &ShadingSamples::draw_ms}};
+
 Json to_json(const VariantRecord& record, const std::string& identity) {
   Json terms = Json::object();
   for (const auto& [name, plane] : record.values.terms) terms[name] = binary(plane);
   return {{"identity", identity},
           {"row", row_json(record.row)},
           {"sweeps", record.sweeps},
-          {"device_ms", record.samples.device_ms},
-          {"wall_ms", record.samples.wall_ms},
-          {"pass_ms", record.samples.pass_ms},
-          {"draw_ms", record.samples.draw_ms},
+          {"samples", samples_fields.write(record.samples)},
           {"visibility", binary(record.values.visibility)},
           {"classes", binary(record.values.classes)},
           {"terms", terms}};
@@ -48,10 +51,7 @@ VariantRecord from_json(const Json& json) {
   VariantRecord record;
   record.row = row_from_json(json.at("row"));
   json.at("sweeps").get_to(record.sweeps);
-  json.at("device_ms").get_to(record.samples.device_ms);
-  json.at("wall_ms").get_to(record.samples.wall_ms);
-  json.at("pass_ms").get_to(record.samples.pass_ms);
-  json.at("draw_ms").get_to(record.samples.draw_ms);
+  samples_fields.read(json.at("samples"), record.samples);
   record.values.visibility = from_binary<float>(json.at("visibility"));
   record.values.classes = from_binary<JudgedClass>(json.at("classes"));
   for (const auto& [name, plane] : json.at("terms").items()) record.values.terms[name] = from_binary<float>(plane);

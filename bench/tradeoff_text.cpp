@@ -26,6 +26,17 @@ std::string known(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "";
 }
 
+std::string spread_text(const Spread95& spread) {
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", spread.median, spread.low, spread.high);
+}
+
+/// "resolve 3.9512; combine 0.2514": medians.
+std::string medians_text(const std::map<std::string, Spread95>& passes) {
+  std::vector<std::string> parts;
+  for (const auto& [name, spread] : passes) parts.push_back(fmt::format("{} {:.4f}", name, spread.median));
+  return quoted(joined(parts, "; "));
+}
+
 std::string class_rmse(const TradeoffRow& row, const char* name) {
   const auto found = row.classes.find(name);
   return found == row.classes.end() ? "" : fmt::format("{:.3f}", found->second.rmse);
@@ -85,17 +96,19 @@ void write_prediction(const TradeoffTable& table, std::string& text) {
 
 void write_passes(const TradeoffTable& table, std::string& text) {
   text +=
-      "\n## Passes\n\nDevice time of each pass, ms, median and 95 % interval; `wall`: all of them on the host's "
-      "clock.\n\n"
+      "\n## Passes\n\nOf each pass on the front, ms, median and 95 % interval: time on the device's clock / on the "
+      "host's, where each pass is\nwaited for before the next, from the end of the one before it, with what the host "
+      "prepares for it. `wall`: all of them\ntogether on the host's clock, not waited for one by one.\n\n"
       "| variant | wall | passes |\n|---|---|---|\n";
   for (const TradeoffRow& row : table.rows) {
     if (!row.pareto) continue;
     std::vector<std::string> passes;
-    for (const auto& [name, milliseconds] : row.pass_ms)
-      passes.push_back(
-          fmt::format("{} {:.2f} ({:.2f} to {:.2f})", name, milliseconds.median, milliseconds.low, milliseconds.high));
-    text += fmt::format("| {} | {:.2f} ({:.2f} to {:.2f}) | {} |\n", row.name, row.wall_ms.median, row.wall_ms.low,
-                        row.wall_ms.high, joined(passes, ", "));
+    for (const auto& [name, milliseconds] : row.pass_ms) {
+      const auto on_host = row.pass_wall_ms.find(name);
+      passes.push_back(name + " " + spread_text(milliseconds));
+      if (on_host != row.pass_wall_ms.end()) passes.back() += " / " + spread_text(on_host->second);
+    }
+    text += fmt::format("| {} | {} | {} |\n", row.name, spread_text(row.wall_ms), joined(passes, ", "));
   }
 }
 
@@ -120,7 +133,8 @@ void write_all_rows(const TradeoffTable& table, std::string& text) {
 std::string tradeoff_csv(const TradeoffTable& table) {
   std::string text =
       "name,ms,ms_low,ms_high,wall_ms,frame_ms,rmse,rmse_low,rmse_high,bias,rmse_tree,rmse_grass,rmse_ground,"
-      "rmse_occluder,mib,start_s,bake_s,rmse_dvdt,flicker,predicted_ms,predicted_rmse,verified,pareto,ties,settings\n";
+      "rmse_occluder,mib,start_s,bake_s,rmse_dvdt,flicker,predicted_ms,predicted_rmse,verified,pareto,ties,settings,"
+      "pass_ms,pass_wall_ms\n";
   for (const TradeoffRow& row : table.rows) {
     text += fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.6f},{:.6f},{:.6f},{:.6f}", quoted(row.name),
                         row.ms.median, row.ms.low, row.ms.high, row.wall_ms.median, row.frame_ms, row.error.rmse,
@@ -129,9 +143,10 @@ std::string tradeoff_csv(const TradeoffTable& table) {
     text +=
         fmt::format(",{:.2f},{:.4f},{}", row.mib, row.start_s, row.bake_s < 0 ? "" : fmt::format("{:.3f}", row.bake_s));
     text += row.temporal ? fmt::format(",{:.5f},{:.5f}", row.temporal->rmse_dvdt, row.temporal->flicker) : ",,";
-    text += fmt::format(",{},{},{},{},{},{}\n", known(row.predicted_ms, 4), known(row.predicted_rmse, 6),
+    text += fmt::format(",{},{},{},{},{},{}", known(row.predicted_ms, 4), known(row.predicted_rmse, 6),
                         row.verified ? 1 : 0, row.pareto ? 1 : 0, quoted(joined(row.ties, "; ")),
                         quoted(joined(row.settings, " ")));
+    text += fmt::format(",{},{}\n", medians_text(row.pass_ms), medians_text(row.pass_wall_ms));
   }
   return text;
 }
@@ -143,7 +158,11 @@ std::string tradeoff_markdown(const TradeoffTable& table) {
     drawing.push_back(shrink == 1 ? fmt::format("{:.1f} ms", ms)
                                   : fmt::format("{:.1f} ms at 1/{} of the size", ms, shrink));
   double noise = 0;
-  for (const TradeoffRow& row : table.rows) noise = std::max(noise, row.error.truth_noise);
+  std::string truth_dvdt;
+  for (const TradeoffRow& row : table.rows) {
+    noise = std::max(noise, row.error.truth_noise);
+    if (row.temporal) truth_dvdt = fmt::format(" (the truth's own is {:.2f})", row.temporal->truth_dvdt);
+  }
   std::string text = fmt::format(
       "# Time and error: {}\n\nMade by `understory tradeoff`, never by hand; on {}. Judged: {} pixels of frames {} "
       "seen "
@@ -152,11 +171,11 @@ std::string tradeoff_markdown(const TradeoffTable& table) {
       "is taken out. `ms`: device time of a frame's\nresolve and all passes after it, median and 95 % interval, the "
       "resolve's part of it over all variants that resolve alike; posing\nand drawing take {} more whatever the "
       "methods. "
-      "RMSE, bias: of V, with 95 % intervals from the scatter of the pixels. dV/dt: RMSE of\nthe change of V, 1/s; "
+      "RMSE, bias: of V, with 95 % intervals from the scatter of the pixels. dV/dt: RMSE of\nthe change of V, 1/s{}; "
       "flicker: the largest change between two frames that the truth does not have.\n\n"
       "![time and error](tradeoff.svg)\n",
       table.scene, table.device, table.pixels, joined(frames, ", "), table.cameras, table.rays, noise,
-      joined(drawing, ", "));
+      joined(drawing, ", "), truth_dvdt);
   write_front(table, text);
   write_prediction(table, text);
   write_passes(table, text);

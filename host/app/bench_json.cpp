@@ -5,19 +5,23 @@
 
 #include "host/app/device_json.hpp"
 #include "sim/error.hpp"
+#include "sim/files/json_fields.hpp"
 
 namespace understory {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What `--compare` reads of an earlier run.
+constexpr JsonFields compared_fields{
+    JsonField{"name", &BenchResult::name}, JsonField{"median_ms", &BenchResult::median_ms},
+    JsonField{"low_ms", &BenchResult::low_ms}, JsonField{"high_ms", &BenchResult::high_ms},
+    JsonField{"verified", &BenchResult::verified}};
+
 Json to_json(const BenchResult& result) {
-  Json json = {{"name", result.name},
-               {"item", result.item},
+  Json json = compared_fields.write(result);
+  json.update({{"item", result.item},
                {"items", result.items},
-               {"median_ms", result.median_ms},
-               {"low_ms", result.low_ms},
-               {"high_ms", result.high_ms},
                {"wall_ms", result.wall_ms},
                {"wall_low_ms", result.wall_low_ms},
                {"wall_high_ms", result.wall_high_ms},
@@ -34,21 +38,10 @@ Json to_json(const BenchResult& result) {
                {"bound_by", result.bound_by},
                {"streams", result.streams},
                {"rest", result.rest},
-               {"max_error", result.max_error},
-               {"verified", result.verified}};
+               {"max_error", result.max_error}});
   for (const auto& [key, times] : {std::pair{"cold", result.cold}, std::pair{"warm", result.warm}})
     if (times) json[key] = {{"build_ms", times->build_ms}, {"first_launch_ms", times->first_launch_ms}};
   return json;
-}
-
-BenchResult from_json(const Json& json) {
-  BenchResult result;
-  json.at("name").get_to(result.name);
-  json.at("median_ms").get_to(result.median_ms);
-  json.at("low_ms").get_to(result.low_ms);
-  json.at("high_ms").get_to(result.high_ms);
-  json.at("verified").get_to(result.verified);
-  return result;
 }
 
 }  // namespace
@@ -132,7 +125,7 @@ std::vector<BenchResult> read_bench_results(const std::filesystem::path& file) {
   try {
     std::vector<BenchResult> results;
     const Json report = Json::parse(stream);
-    for (const Json& json : report.at("results")) results.push_back(from_json(json));
+    for (const Json& json : report.at("results")) results.push_back(compared_fields.read(json));
     return results;
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorKind::invalid_input,

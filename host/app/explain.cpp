@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/explain.hpp"
+#include "bench/spread_json.hpp"
 #include "host/app/commands.hpp"
 #include "host/app/device_json.hpp"
 #include "host/app/options.hpp"
@@ -83,14 +84,10 @@ void print_explanation(const Explanation& explanation, const Scene& scene, doubl
       world_s, explanation.device_s, fmt::join(explanation.whole.programs, ", "));
 }
 
-Json spread_json(const Spread95& spread) {
-  return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
-}
-
 Json footprint_json(const Footprint& footprint) {
   return {{"start_s", footprint.start_s},
-          {"frame_ms", spread_json(footprint.frame_ms)},
-          {"shading_ms", spread_json(footprint.shading_ms)},
+          {"frame_ms", spread_fields.write(footprint.frame_ms)},
+          {"shading_ms", spread_fields.write(footprint.shading_ms)},
           {"buffers_mib", footprint.buffers_mib},
           {"peak_buffers_mib", footprint.peak_mib},
           {"programs", footprint.programs},
@@ -110,7 +107,7 @@ Json explanation_json(const Explanation& explanation, const Scene& scene, double
                      {"changed", worth.changed},
                      {"rms", worth.rms},
                      {"max", worth.most},
-                     {"cost_ms", spread_json(worth.cost_ms)},
+                     {"cost_ms", spread_fields.write(worth.cost_ms)},
                      {"cost_share", worth.cost_share},
                      {"could_go", worth.could_go},
                      {"without", footprint_json(worth.without)}});

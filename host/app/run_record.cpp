@@ -6,52 +6,37 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/error.hpp"
+#include "sim/files/json_fields.hpp"
 
 namespace understory {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr JsonFields frame_fields{JsonField{"index", &FrameRecord::index},   JsonField{"time_s", &FrameRecord::time_s},
+                                  JsonField{"ms", &FrameRecord::ms},         JsonField{"passes", &FrameRecord::passes},
+                                  JsonField{"sha256", &FrameRecord::sha256}, JsonField{"files", &FrameRecord::files}};
+constexpr JsonFields budget_fields{
+    JsonField{"max_error", &BudgetRecord::max_error},     JsonField{"max_ms", &BudgetRecord::max_ms},
+    JsonField{"choice", &BudgetRecord::choice},           JsonField{"promised_rmse", &BudgetRecord::promised_rmse},
+    JsonField{"promised_ms", &BudgetRecord::promised_ms}, JsonField{"chosen_by", &BudgetRecord::chosen_by},
+    JsonField{"checked_on", &BudgetRecord::checked_on},   JsonField{"found_rmse", &BudgetRecord::found_rmse}};
+
 Json to_json(const FrameRecord& frame) {
   Json validity = Json::object();
   for (const auto& [code, count] : frame.validity) validity[std::to_string(code)] = count;
-  Json json = {{"index", frame.index},   {"time_s", frame.time_s}, {"ms", frame.ms},      {"passes", frame.passes},
-               {"sha256", frame.sha256}, {"files", frame.files},   {"validity", validity}};
+  Json json = frame_fields.write(frame);
+  json["validity"] = validity;
   if (!frame.chosen.empty()) json["chosen"] = frame.chosen;
   return json;
 }
 
 FrameRecord frame_from_json(const Json& json) {
-  FrameRecord frame;
-  json.at("index").get_to(frame.index);
-  json.at("time_s").get_to(frame.time_s);
-  json.at("ms").get_to(frame.ms);
-  json.at("passes").get_to(frame.passes);
-  json.at("sha256").get_to(frame.sha256);
-  json.at("files").get_to(frame.files);
+  FrameRecord frame = frame_fields.read(json);
   frame.chosen = json.value("chosen", "");
   for (const auto& [code, count] : json.at("validity").items())
     frame.validity[static_cast<std::uint32_t>(std::stoul(code))] = count.get<std::uint64_t>();
   return frame;
-}
-
-Json to_json(const BudgetRecord& budget) {
-  return {{"max_error", budget.max_error},         {"max_ms", budget.max_ms},           {"choice", budget.choice},
-          {"promised_rmse", budget.promised_rmse}, {"promised_ms", budget.promised_ms}, {"chosen_by", budget.chosen_by},
-          {"checked_on", budget.checked_on},       {"found_rmse", budget.found_rmse}};
-}
-
-BudgetRecord budget_from_json(const Json& json) {
-  BudgetRecord budget;
-  json.at("max_error").get_to(budget.max_error);
-  json.at("max_ms").get_to(budget.max_ms);
-  json.at("choice").get_to(budget.choice);
-  json.at("promised_rmse").get_to(budget.promised_rmse);
-  json.at("promised_ms").get_to(budget.promised_ms);
-  json.at("chosen_by").get_to(budget.chosen_by);
-  json.at("checked_on").get_to(budget.checked_on);
-  json.at("found_rmse").get_to(budget.found_rmse);
-  return budget;
 }
 
 std::string budget_text(const RunRecord& record) {
@@ -134,7 +119,7 @@ std::string to_json_text(const RunRecord& record) {
                {"programs", record.programs},
                {"peak_rss_mib", record.peak_rss_mib},
                {"validity", validity_of_all(record)}};
-  if (record.budget) json["budget"] = to_json(*record.budget);
+  if (record.budget) json["budget"] = budget_fields.write(*record.budget);
   Json frames = Json::array(), failed = Json::array();
   for (const auto& [index, frame] : record.frames) frames.push_back(to_json(frame));
   for (const FailedFrame& frame : record.failed) failed.push_back({{"index", frame.index}, {"message", frame.message}});
@@ -161,7 +146,7 @@ RunRecord parse_run_record(const std::string& text, const std::string& where) {
     json.at("supersample").get_to(record.supersample);
     json.at("dump").get_to(record.dumps);
     json.at("methods").get_to(record.methods);
-    if (json.contains("budget")) record.budget = budget_from_json(json.at("budget"));
+    if (json.contains("budget")) record.budget = budget_fields.read(json.at("budget"));
     json.at("plan").get_to(record.plan);
     json.at("programs").get_to(record.programs);
     json.at("peak_rss_mib").get_to(record.peak_rss_mib);

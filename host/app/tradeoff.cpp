@@ -159,7 +159,7 @@ void add_tradeoff(CLI::App& program, Command& chosen) {
   app->add_option("--rays", options.rays, "Rays per judged pixel of the traced truth")
       ->check(CLI::Range(16, 1 << 24))
       ->capture_default_str();
-  app->add_option("--rounds", options.rounds, "Times each is shaded to be timed, per sweep")
+  app->add_option("--rounds", options.rounds, "Times each is shaded to be timed, per sweep; fewer where it takes long")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   app->add_option("--sweeps", options.sweeps, "Sweeps over the combinations that are measured whole")

@@ -167,6 +167,29 @@ void Device::Impl::collect_all_times() {
   }
 }
 
+void Device::Impl::wait_for_launch(const std::string& pass) {
+  if (!last_end) return;
+  if (const cl_int status = clFinish(queue()); status != CL_SUCCESS)
+    throw Error(ErrorKind::unexpected, "a launch failed on device '" + info.name + "': " + status_text(status));
+  const auto now = std::chrono::steady_clock::now();
+  host_pass_ms[pass] += std::chrono::duration<double, std::milli>(now - *last_end).count();
+  last_end = now;
+}
+
+std::map<std::string, double> Device::host_pass_times(const std::function<void()>& action) {
+  finish();
+  impl_->host_pass_ms.clear();
+  impl_->last_end = std::chrono::steady_clock::now();
+  try {
+    action();
+  } catch (...) {
+    impl_->last_end.reset();
+    throw;
+  }
+  impl_->last_end.reset();
+  return std::exchange(impl_->host_pass_ms, {});
+}
+
 std::map<std::string, double> Device::take_pass_times() {
   impl_->collect_all_times();
   impl_->kernel_ms.clear();

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -44,6 +45,10 @@ class Device {
   std::map<std::string, double> take_pass_times();
   /// The same per kernel function. Either call forgets the times of both.
   std::map<std::string, double> take_kernel_times();
+  /// Runs `action` with every launch waited for, and returns milliseconds of the host's clock per pass name: from the
+  /// end of the launch before it, or the call, to its own end, with what the host does for it in between. The sum is
+  /// the wall time of the action but for what comes after its last launch.
+  std::map<std::string, double> host_pass_times(const std::function<void()>& action);
   /// Wall milliseconds that building each program took so far, by stem, summed over its options.
   std::map<std::string, double> build_times() const;
   /// Names of the programs built so far on this device (stems of .cl files), sorted.

@@ -119,6 +119,7 @@ void Kernel::enqueue(std::size_t items, std::size_t local, unsigned arguments) {
                 " failed: " + status_text(status));
   }
   on.launches.push_back({impl_->pass, impl_->name, std::move(event)});
+  on.wait_for_launch(impl_->pass);
   if (on.launches.size() > most_pending) on.collect_times();
 }
 

@@ -41,6 +41,21 @@ TEST(TradeoffJudge, SeesEveryFrameWithBothCameras) {
   }
 }
 
+TEST(TradeoffJudge, GoesOnWithOtherFramesAndComesBack) {
+  Judged judged(16);
+  const std::vector<float> first = truths(judged.judge);
+  judged.judge.choose({judged.world.scene.methods});
+  const RmseInterval error = judged.judge.error(judged.judge.values().visibility);
+  judged.judge.look_at({1});
+  ASSERT_EQ(judged.judge.views().size(), 2u);
+  for (const JudgedView& view : judged.judge.views()) EXPECT_EQ(view.frame, 1);
+  EXPECT_NE(truths(judged.judge), first);
+  judged.judge.look_at({0, 3});
+  EXPECT_EQ(truths(judged.judge), first);
+  judged.judge.choose({judged.world.scene.methods});
+  EXPECT_EQ(judged.judge.error(judged.judge.values().visibility).rmse, error.rmse);
+}
+
 TEST(TradeoffJudge, TakesTheNoiseOfTheTruthOutOfErrors) {
   Judged noisy(16), exact(2048);
   ASSERT_EQ(noisy.judge.views()[1].pixels, exact.judge.views()[1].pixels);

@@ -1,6 +1,7 @@
 // `understory tradeoff` as a user types it: its files, its front, and how it goes on after a kill.
 #include <csignal>
 #include <map>
+#include <set>
 
 #include "tests/program/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -29,7 +30,7 @@ std::size_t kept_variants(const std::filesystem::path& folder) {
 
 /// Of a kept variant: what it took each time, ms.
 std::vector<double> times_in(const std::string& variant) {
-  return nlohmann::json::from_cbor(variant).at("device_ms").get<std::vector<double>>();
+  return nlohmann::json::from_cbor(variant).at("samples").at("device_ms").get<std::vector<double>>();
 }
 
 bool clearly_wins(const nlohmann::json& a, const nlohmann::json& b) {
@@ -57,6 +58,13 @@ TEST(Tradeoff, MeasuresASceneWithEveryClassOfObject) {
     EXPECT_LE(row.at("rmse_low").get<double>(), row.at("rmse").get<double>());
     EXPECT_LE(row.at("rmse").get<double>(), row.at("rmse_high").get<double>());
     EXPECT_GT(row.at("mib").get<double>(), 0);
+    std::set<std::string> on_device, on_host;
+    for (const auto& [pass, ms] : row.at("pass_ms").items()) on_device.insert(pass);
+    for (const auto& [pass, ms] : row.at("pass_wall_ms").items()) {
+      on_host.insert(pass);
+      EXPECT_GT(ms.get<double>(), 0) << pass;
+    }
+    EXPECT_EQ(on_host, on_device) << "each pass by both clocks";
     all_names += row.at("name").get<std::string>() + "\n";
     front += row.at("pareto").get<bool>();
     temporal += !row.at("temporal").is_null();
