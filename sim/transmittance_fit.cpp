@@ -152,6 +152,30 @@ void fit_within(const std::vector<Seen>& seen, const std::vector<int>& powers, i
   for (Eigen::Index i = 0; i < fit.size(); ++i) shell.within[i] = static_cast<float>(fit(i));
 }
 
+// E = O/2 + sum over j < 4 of E_j(cone) (s^2j - s^8): at |s| = 1, where the tangent plane touches the disc, it is O/2
+// whatever the fit, so that V is continuous there.
+constexpr int free_outside = 20;
+
+/// What the fit's coefficients multiply at a place outside.
+void set_outside_terms(double cone, double s, double weight, Matrix& terms, Eigen::Index row) {
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < powers_of_z; ++i)
+      terms(row, powers_of_z * j + i) = weight * std::pow(cone, i) * (std::pow(s, 2 * j) - std::pow(s, 8));
+}
+
+/// Of E_0 to E_3, those of TransmittanceShell: powers of s up to the eighth.
+void set_outside(const Vector& fit, TransmittanceShell& shell) {
+  for (int i = 0; i < powers_of_z; ++i) {
+    double last = 0;
+    for (int j = 0; j < 4; ++j) {
+      last -= fit(powers_of_z * j + i);
+      shell.outside[powers_of_z * j + i] = static_cast<float>(fit(powers_of_z * j + i));
+    }
+    shell.outside[free_outside + i] = static_cast<float>(last);
+  }
+  shell.outside[0] = static_cast<float>(fit(0) + 0.5 * double(shell.opacity));
+}
+
 /// E of a sphere: what its disc blocks where the tangent plane cuts it, without the part that is odd in s.
 void fit_outside(double optical, TransmittanceShell& shell) {
   const std::vector<GaussNode> nodes = gauss_nodes(40, 0, pi / 2);  // of asin(distance of a chord from the centre)
@@ -161,7 +185,7 @@ void fit_outside(double optical, TransmittanceShell& shell) {
     inverses.push_back(1 - std::pow(10, -3.5 + 3 * i / 23.0));
   }
   const auto heights = cosines();
-  Matrix terms(static_cast<Eigen::Index>(inverses.size() * heights.size()), 25);
+  Matrix terms(static_cast<Eigen::Index>(inverses.size() * heights.size()), free_outside);
   Vector values(terms.rows());
   Eigen::Index row = 0;
   for (const double w : inverses)
@@ -173,32 +197,28 @@ void fit_outside(double optical, TransmittanceShell& shell) {
         blocked += node.weight * dc * cosine_ring(-c, s * w) * (1 - std::exp(-2 * optical * std::cos(node.at)));
       }
       const double cube = w * w * w, cone = std::sqrt(1 - w * w);
-      for (int j = 0; j < 5; ++j)
-        for (int i = 0; i < 5; ++i) terms(row, 5 * j + i) = cube * std::pow(cone, i) * std::pow(s, 2 * j);
-      values(row++) = blocked + 0.5 * s * double(shell.opacity) * cube;
+      set_outside_terms(cone, s, cube, terms, row);
+      values(row++) = blocked + 0.5 * (s - 1) * double(shell.opacity) * cube;
     }
-  const Vector fit = least_error(terms, values, minimax_rounds);
-  for (Eigen::Index i = 0; i < fit.size(); ++i) shell.outside[i] = static_cast<float>(fit(i));
+  set_outside(least_error(terms, values, minimax_rounds), shell);
 }
 
 /// The same for an ellipsoid, with the opacity that its disc has on average from places near it.
 void fit_outside_ellipsoid(const std::vector<Seen>& seen, TransmittanceShell& shell) {
   const auto rows = static_cast<Eigen::Index>(seen.size());
-  Matrix terms = Matrix::Zero(rows, 26);
+  Matrix terms = Matrix::Zero(rows, free_outside + 1);
   Vector values = Vector::Zero(rows);
   for (Eigen::Index row = 0; row < rows; ++row) {
     const Seen& at = seen[static_cast<std::size_t>(row)];
     const double w = 1 / std::sqrt(at.square), cube = w * w * w, cone = std::sqrt(std::max(1 - w * w, 0.0));
     if (at.along >= 1) continue;
     values(row) = 1 - at.visibility;
-    terms(row, 25) = (at.along <= -1 ? -1 : -0.5) * at.along * cube;
-    if (at.along <= -1) continue;
-    for (int j = 0; j < 5; ++j)
-      for (int i = 0; i < 5; ++i) terms(row, 5 * j + i) = cube * std::pow(cone, i) * std::pow(at.along, 2 * j);
+    terms(row, free_outside) = (at.along <= -1 ? -at.along : 0.5 * (1 - at.along)) * cube;
+    if (at.along > -1) set_outside_terms(cone, at.along, cube, terms, row);
   }
   const Vector fit = least_error(terms, values, 1);
-  for (Eigen::Index i = 0; i < 25; ++i) shell.outside[i] = static_cast<float>(fit(i));
-  shell.opacity = static_cast<float>(std::clamp(fit(25), 0.0, 1.0));
+  shell.opacity = static_cast<float>(std::clamp(fit(free_outside), 0.0, 1.0));
+  set_outside(fit, shell);
 }
 
 }  // namespace

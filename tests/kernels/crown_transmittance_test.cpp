@@ -48,6 +48,23 @@ Errors errors_within(glm::dvec3 radii, double k, bool dome, int places) {
   return errors;
 }
 
+TEST(CrownTransmittance, HasNoStepWhereTheTangentPlaneLeavesTheCrown) {
+  for (const bool dome : {false, true})
+    for (const double k : {0.25, 1.0, 9.0, 64.0, 1000.0})
+      for (const glm::dvec3 radii : {glm::dvec3(1), glm::dvec3(1.2, 0.9, 0.8)}) {
+        const TransmittanceShell shell = fit_transmittance(upright, radii, k, dome);
+        for (const double q : {1.001, 1.05, 1.5, 4.0})
+          for (const double side : {-1.0, 1.0}) {
+            // n.g = -1 and 1: above the crown, where g is upright and as long as q stretched.
+            const auto at = [&](double s) {
+              const double up = side * s / q;
+              return visibility(shell, {0, 0, q * radii.z}, {std::sqrt(1 - up * up), 0, up}, dome);
+            };
+            EXPECT_NEAR(at(1 - 2e-7), at(1 + 2e-7), 1e-5) << k << ' ' << q << ' ' << side;
+          }
+      }
+}
+
 TEST(CrownTransmittance, SphereIsWithinAThousandthOfQuadrature) {
   for (const double k : {0.0, 0.03, 0.25, 0.7, 1.0, 1.7, 2.7, 4.0, 6.0, 9.0, 13.0, 19.0, 28.0, 40.0, 52.0, 64.0}) {
     const TransmittanceShell shell = fit_transmittance(upright, glm::dvec3(1), k, false);
