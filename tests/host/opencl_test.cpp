@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <numeric>
+#include <stdexcept>
 
 #include "tests/support/errors.hpp"
 
@@ -133,6 +135,30 @@ TEST(Kernels, SumTheirTimesPerPass) {
   EXPECT_GT(times.at("copy"), times.at("other"));
   EXPECT_TRUE(device.take_pass_times().empty());
   EXPECT_EQ(device.programs_built(), std::vector<std::string>{"roofline"});
+}
+
+TEST(Kernels, SumTheirTimesOnTheHostPerPass) {
+  Device device;
+  Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1"),
+      also(device, "roofline", "copy_plane", "other", "-DW=1");
+  Buffer<float> in(device, std::span<const float>(ramp(odd_count)), "in"), out(device, odd_count, "out");
+  const auto launch = [&](Kernel& kernel) { kernel.launch(odd_count, 64, in, out, static_cast<unsigned>(odd_count)); };
+  const auto begin = std::chrono::steady_clock::now();
+  const std::map<std::string, double> times = device.host_pass_times([&] {
+    for (int i = 0; i < 20; ++i) launch(copy);
+    launch(also);
+  });
+  const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  const std::map<std::string, double> on_device = device.take_pass_times();
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_LE(times.at("copy") + times.at("other"), wall);
+  for (const auto& [pass, milliseconds] : times)
+    EXPECT_GE(milliseconds, on_device.at(pass)) << "it waits for the launch";
+  launch(copy);
+  EXPECT_TRUE(device.host_pass_times([] {}).empty()) << "nothing is counted outside";
+  EXPECT_THROW(device.host_pass_times([] { throw std::runtime_error("no"); }), std::runtime_error);
+  launch(copy);
+  EXPECT_TRUE(device.host_pass_times([] {}).empty());
 }
 
 TEST(Kernels, CheckTheirArguments) {
