@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/program/program.hpp"
+#include "viz/exr/frame_exr.hpp"
 
 namespace understory {
 namespace {
@@ -76,6 +77,33 @@ TEST(Run, LeavesFramesPicturesAndARecord) {
     for (const auto& pass : record.at("plan")) EXPECT_TRUE(frame.at("passes").contains(pass)) << pass;
   }
   EXPECT_NEAR(record.at("frames")[2].at("time_s").get<double>(), 2 / 12.0, 1e-12);
+}
+
+TEST(Run, CountsWhatLiesInsideASolidAndWritesItAsAChannel) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "boxes.yaml") << R"(
+name: a box in a box, and the camera with it
+time: {fps: 24, frames: 1}
+image: {width: 60, height: 40}
+camera: {position: [0.45, 0.1, 0.6], target: [0, 0, 0.5], fov: 60, near: 0.01}
+terrain: {flat: {extent: {low: [-3, -3], high: [3, 3]}}}
+occluders:
+  - {name: outer, parts: [{box: [1, 1, 1]}], keyframes: [{time: 0, position: [0, 0, 0.5]}]}
+  - {name: inner, parts: [{box: [0.2, 0.2, 0.2]}], keyframes: [{time: 0, position: [0, 0, 0.5]}]}
+methods: {occluders: grid-cone, grid: {rays: 32}}
+)";
+  const FinishedProcess run = understory_command(
+      {"run", folder / "boxes.yaml", "-o", folder / "out", "--frames", "0", "--dump", "exr", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Frame frame = read_frame_exr(folder / "out/frame_0000.exr");
+  std::uint64_t inside = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    const bool on_inner = frame.owners.at(frame.owner[i]).species.starts_with("inner");
+    EXPECT_EQ((frame.validity[i] & validity::occluder_too_close) != 0, on_inner) << i;
+    inside += on_inner;
+  }
+  EXPECT_GT(inside, 100u);
+  EXPECT_EQ(record_in(folder / "out").at("validity").at("16"), inside);
 }
 
 TEST(Run, GivesTheSameBytesTwiceAloneInAnyOrderOnAnyNumberOfThreads) {
