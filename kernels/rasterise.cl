@@ -36,31 +36,28 @@ static inline void draw_few_centres(const CameraView* camera, FewCentres few, ui
   const size_t pixel_count = (size_t)camera->width * camera->height;
   int pixel[W];
   float depth[W];
-  STORE(few.pixel, pixel, 0);
-  for (int row = 0; row < FEW_ROWS; ++row) {
-    const truth in_row = row < few.rows;
-    if (lane_bits(in_row & (few.columns > 0)) == 0) return;
-    whole a = few.a.at_first, b = few.b.at_first, c = few.c.at_first;
-    for (int column = 0; column < FEW_COLUMNS; ++column) {
-      const truth in_box = in_row & (column < few.columns);
-      if (lane_bits(in_box) == 0) break;
-      uint left = lane_bits(in_box & ((a | b | c) >= 0));
-      if (left != 0) {
-        const real wb = TO_REAL(b) * few.share, wc = TO_REAL(c) * few.share;
-        STORE(REAL(1.0) / fma(wb, few.to_b, fma(wc, few.to_c, few.inverse_z)), depth, 0);
-        const int offset = row * camera->width + column;
-        while (left != 0) {
-          const uint lane = next_lane(&left);
-          offer_fragment(pixels, pixel_count, pixel[lane] + offset, depth[lane], first + lane);
-        }
+  whole column = (whole)(0), at = few.pixel, a = few.a.at_first, b = few.b.at_first, c = few.c.at_first;
+  const whole next_row = (whole)(camera->width + 1) - few.columns;
+  for (int walked = 0;; ++walked) {
+    const truth in_box = walked < few.centres;
+    if (lane_bits(in_box) == 0) return;
+    uint left = lane_bits(in_box & ((a | b | c) >= 0));
+    if (left != 0) {
+      const real wb = TO_REAL(b) * few.share, wc = TO_REAL(c) * few.share;
+      STORE(REAL(1.0) / fma(wb, few.to_b, fma(wc, few.to_c, few.inverse_z)), depth, 0);
+      STORE(at, pixel, 0);
+      while (left != 0) {
+        const uint lane = next_lane(&left);
+        offer_fragment(pixels, pixel_count, pixel[lane], depth[lane], first + lane);
       }
-      a += few.a.right;
-      b += few.b.right;
-      c += few.c.right;
     }
-    few.a.at_first += few.a.down;
-    few.b.at_first += few.b.down;
-    few.c.at_first += few.c.down;
+    column += 1;
+    const truth ends = column == few.columns;
+    a += PICK(ends, few.a.next_row, few.a.right);
+    b += PICK(ends, few.b.next_row, few.b.right);
+    c += PICK(ends, few.c.next_row, few.c.right);
+    at += PICK(ends, next_row, (whole)(1));
+    column = PICK(ends, (whole)(0), column);
   }
 }
 

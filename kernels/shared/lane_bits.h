@@ -7,7 +7,13 @@
 #include "kernels/shared/real.h"
 
 static inline uint lane_bits(truth lanes) {
-  return (uint)ANY(PICK(lanes, (whole)(1) << LANE_NUMBERS, (whole)(0)));
+#if W == 1
+  return (uint)(lanes != 0);
+#elif defined(LANE_MASK)
+  return LANE_MASK(lanes);
+#else
+  return (uint)or_lanes(PICK(lanes, (whole)(1) << LANE_NUMBERS, (whole)(0)));
+#endif
 }
 
 // Takes the lowest bit from `*left`, which is not 0; the number of its lane.
