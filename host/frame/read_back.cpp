@@ -1,24 +1,77 @@
 #include "host/frame/read_back.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <deque>
+#include <functional>
 
 namespace understory {
 namespace {
 
-/// The frame's pixels of a plane with rows of `row_length`, which may have as many pixels more on every side.
-template <typename T>
-std::vector<T> read_image(const Buffer<T>& buffer, std::size_t row_length, const Frame& frame) {
-  const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
-  const std::size_t guard = (row_length - width) / 2;
-  std::vector<T> values(row_length * (height + 2 * guard));
-  buffer.read(std::span<T>(values));
-  if (guard == 0) return values;
-  for (std::size_t row = 0; row < height; ++row)
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>((row + guard) * row_length + guard), width,
-                values.begin() + static_cast<std::ptrdiff_t>(row * width));
-  values.resize(width * height);
-  return values;
-}
+/// Copies planes of a frame side by side, straight from the device's memory where the host shares it. Device planes
+/// may have longer rows, as many pixels more on every side, which are left out.
+class PlaneCopies {
+  /// Elements of a buffer, once they are there.
+  template <typename T>
+  struct Seen {
+    const RawMapping* mapping;
+    const T* operator()() const { return static_cast<const T*>(mapping->data()); }
+  };
+  template <typename T>
+  Seen<T> map(const Buffer<T>& buffer) {
+    return {&mappings_.emplace_back(buffer.raw())};
+  }
+
+ public:
+  PlaneCopies(const Frame& frame, std::size_t row_length)
+      : width_(static_cast<std::size_t>(frame.width)),
+        height_(static_cast<std::size_t>(frame.height)),
+        row_length_(row_length) {}
+
+  template <typename T>
+  void add(const Buffer<T>& from, std::vector<T>& to) {
+    const auto seen = map(from);
+    copies_.push_back([this, seen, &to] {
+      if (row_length_ == width_) return to.assign(seen(), seen() + width_ * height_);
+      to.clear();
+      to.reserve(width_ * height_);
+      for (std::size_t row = 0; row < height_; ++row)
+        to.insert(to.end(), seen() + first_of(row), seen() + first_of(row) + width_);
+    });
+  }
+
+  /// Camera-relative m to relative to the origin, `offset` away; background stays 0.
+  void add_moved(const Buffer<float>& from, const Buffer<std::uint32_t>& validity, double offset, Plane& to) {
+    const auto seen = map(from);
+    const auto flags = map(validity);
+    copies_.push_back([this, seen, flags, offset, &to] {
+      to.resize(width_ * height_);
+      for (std::size_t row = 0; row < height_; ++row) {
+        const float* value = seen() + first_of(row);
+        const std::uint32_t* flag = flags() + first_of(row);
+        for (std::size_t column = 0; column < width_; ++column)
+          to[row * width_ + column] =
+              (flag[column] & validity::background) != 0 ? value[column] : static_cast<float>(value[column] + offset);
+      }
+    });
+  }
+
+  void run() {
+    for (const RawMapping& mapping : mappings_) mapping.data();
+    tbb::parallel_for(std::size_t(0), copies_.size(), [&](std::size_t i) { copies_[i](); });
+  }
+
+ private:
+  std::size_t first_of(std::size_t row) const {
+    const std::size_t guard = (row_length_ - width_) / 2;
+    return (row + guard) * row_length_ + guard;
+  }
+
+  std::size_t width_, height_, row_length_;
+  std::deque<RawMapping> mappings_;  // stay where they are
+  std::vector<std::function<void()>> copies_;
+};
 
 template <typename T>
 void write_first(Buffer<T>& buffer, const std::vector<T>& values) {
@@ -34,30 +87,30 @@ Plane shifted(const Plane& values, double by) {
 }  // namespace
 
 void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
-  const std::size_t count = frame.pixels();
-  const auto read_first = [&](const auto& plane) { return read_image(plane, planes.row_length, frame); };
-  frame.owner = read_first(planes.owner);
-  frame.validity = read_first(planes.validity);
-  const Buffer<float>* positions[3] = {&planes.position_x, &planes.position_y, &planes.position_z};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Plane& plane = frame.position[axis] = read_first(*positions[axis]);
-    const double offset = eye[static_cast<int>(axis)];
-    for (std::size_t i = 0; i < count; ++i)
-      if ((frame.validity[i] & validity::background) == 0) plane[i] = static_cast<float>(plane[i] + offset);
-  }
-  frame.normal = {read_first(planes.normal_x), read_first(planes.normal_y), read_first(planes.normal_z)};
-  frame.depth = read_first(planes.depth);
-  if (planes.height_above_root.size() > 0) frame.height_above_root = read_first(planes.height_above_root);
+  PlaneCopies copies(frame, planes.row_length);
+  copies.add(planes.owner, frame.owner);
+  copies.add(planes.validity, frame.validity);
+  copies.add_moved(planes.position_x, planes.validity, eye.x, frame.position[0]);
+  copies.add_moved(planes.position_y, planes.validity, eye.y, frame.position[1]);
+  copies.add_moved(planes.position_z, planes.validity, eye.z, frame.position[2]);
+  copies.add(planes.normal_x, frame.normal[0]);
+  copies.add(planes.normal_y, frame.normal[1]);
+  copies.add(planes.normal_z, frame.normal[2]);
+  copies.add(planes.depth, frame.depth);
+  if (planes.height_above_root.size() > 0) copies.add(planes.height_above_root, frame.height_above_root);
+  copies.run();
 }
 
 void read_visibility(const VisibilityPasses& passes, std::size_t row_length, Frame& frame) {
-  frame.visibility = read_image(passes.visibility(), row_length, frame);
-  for (const auto& [name, plane] : passes.terms()) frame.terms[name] = read_image(plane, row_length, frame);
+  PlaneCopies copies(frame, row_length);
+  copies.add(passes.visibility(), frame.visibility);
+  for (const auto& [name, plane] : passes.terms()) copies.add(plane, frame.terms[name]);
   if (const EnvironmentLight* light = passes.environment()) {
     for (std::size_t channel = 0; channel < 3; ++channel)
-      frame.ambient_light[channel] = read_image(light->planes()[channel], row_length, frame);
+      copies.add(light->planes()[channel], frame.ambient_light[channel]);
     frame.sky_mean = light->mean();
   }
+  copies.run();
 }
 
 FragmentPlanes upload_planes(Device& device, const Frame& frame, glm::dvec3 eye) {

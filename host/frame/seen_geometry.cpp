@@ -10,11 +10,11 @@ Buffer<T> uploaded(Device& device, const std::vector<T>& data, const char* what)
   return data.empty() ? Buffer<T>() : Buffer<T>(device, std::span<const T>(data), what);
 }
 
-/// Writes a list of this frame, into more memory when it must.
+/// Writes a list of this frame, into more memory when it must. `wait`: as RawBuffer::write.
 template <typename T>
-void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, const char* what) {
+void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, const char* what, bool wait = false) {
   if (buffer.size() < rows.size()) buffer = Buffer<T>(device, rows.size() + rows.size() / 4, what);
-  if (!rows.empty()) buffer.write(std::span<const T>(rows));
+  if (!rows.empty()) buffer.write(std::span<const T>(rows), wait);
 }
 
 /// A quarter is left for what the next frame may see more.
@@ -62,21 +62,16 @@ void SeenGeometry::begin(const Pose& pose, const CameraView& camera) {
 
 bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
   list_ = &lister_.next();
-  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks");
-  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks");
+  write_list();
   geometry_.triangles.mesh_chunks = list_->mesh_chunks;
   geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->chunks.size()) - list_->mesh_chunks;
   geometry_.vertices = list_->vertices;
   geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->blocks.size() * vertex_block);
   if (geometry_.posed.points.size() < list_->vertices)
     geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
-  if (!list_->blocks.empty()) {
-    rewrite(device_, limbs_, list_->limbs, "limb poses");
-    if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves");
+  if (!list_->blocks.empty())
     pose_mesh_->run(geometry_.rest, geometry_.blocks, list_->blocks.size(), limbs_, thinned_ ? &enlarged_ : nullptr,
                     geometry_.posed);
-  }
-  rewrite(device_, blade_units_, list_->blade_units, "blade units");
   for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
     const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
     if (count > 0)
@@ -84,6 +79,15 @@ bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
                        geometry_.posed);
   }
   return lister_.more();
+}
+
+void SeenGeometry::write_list() {
+  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks");
+  rewrite(device_, limbs_, list_->limbs, "limb poses");
+  if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves");
+  rewrite(device_, blade_units_, list_->blade_units, "blade units");
+  // The queue is in order: when this one is written, all are. Nothing is listed without a chunk.
+  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks", true);
 }
 
 const Buffer<std::array<std::uint32_t, 2>>* SeenGeometry::faces(

@@ -37,6 +37,7 @@ class SeenGeometry {
 
  private:
   void upload(const DetailLayout& layout, const World& world);
+  void write_list();
 
   Device& device_;
   bool thinned_;

@@ -1,4 +1,4 @@
-// Allocation with the limits in the message, and blocking transfers within bounds.
+// Allocation with the limits in the message, transfers within bounds, and mappings.
 #include "host/opencl/buffer.hpp"
 
 #include <algorithm>
@@ -64,11 +64,12 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   return *this;
 }
 
-void RawBuffer::write(const void* data, std::size_t bytes, std::size_t offset) {
+void RawBuffer::write(const void* data, std::size_t bytes, std::size_t offset, bool wait) {
   check_range("writing", bytes, offset, bytes_);
   if (bytes == 0) return;
   cl_command_queue queue = device_->impl().queue();
-  check(clEnqueueWriteBuffer(queue, static_cast<cl_mem>(memory_), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+  check(clEnqueueWriteBuffer(queue, static_cast<cl_mem>(memory_), wait ? CL_TRUE : CL_FALSE, offset, bytes, data, 0,
+                             nullptr, nullptr),
         "writing", bytes, *device_);
 }
 
@@ -78,6 +79,42 @@ void RawBuffer::read(void* data, std::size_t bytes, std::size_t offset) const {
   cl_command_queue queue = device_->impl().queue();
   check(clEnqueueReadBuffer(queue, static_cast<cl_mem>(memory_), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
         "reading", bytes, *device_);
+}
+
+RawMapping::RawMapping(const RawBuffer& buffer) : buffer_(&buffer) {
+  if (buffer.bytes() == 0) return;
+  cl_event ready = nullptr;
+  cl_int status = CL_SUCCESS;
+  data_ = clEnqueueMapBuffer(buffer.device()->impl().queue(), static_cast<cl_mem>(buffer.native()), CL_FALSE,
+                             CL_MAP_READ, 0, buffer.bytes(), 0, nullptr, &ready, &status);
+  check(status, "mapping", buffer.bytes(), *buffer.device());
+  ready_ = ready;
+}
+
+RawMapping::~RawMapping() {
+  if (ready_) clReleaseEvent(static_cast<cl_event>(ready_));
+  if (!data_) return;
+  clEnqueueUnmapMemObject(buffer_->device()->impl().queue(), static_cast<cl_mem>(buffer_->native()), data_, 0, nullptr,
+                          nullptr);
+}
+
+RawMapping::RawMapping(RawMapping&& other) noexcept
+    : buffer_(std::exchange(other.buffer_, nullptr)),
+      ready_(std::exchange(other.ready_, nullptr)),
+      data_(std::exchange(other.data_, nullptr)) {}
+
+RawMapping& RawMapping::operator=(RawMapping&& other) noexcept {
+  std::swap(buffer_, other.buffer_);
+  std::swap(ready_, other.ready_);
+  std::swap(data_, other.data_);
+  return *this;
+}
+
+const void* RawMapping::data() const {
+  if (!ready_) return data_;
+  const cl_event ready = static_cast<cl_event>(ready_);
+  check(clWaitForEvents(1, &ready), "mapping", buffer_->bytes(), *buffer_->device());
+  return data_;
 }
 
 }  // namespace understory

@@ -19,15 +19,35 @@ class RawBuffer {
   RawBuffer(RawBuffer&& other) noexcept;
   RawBuffer& operator=(RawBuffer&& other) noexcept;
 
-  void write(const void* data, std::size_t bytes, std::size_t offset = 0);  // blocking
-  void read(void* data, std::size_t bytes, std::size_t offset = 0) const;   // blocking
+  /// `wait` false: returns at once; `data` must stay as it is until something later on this device was waited for.
+  void write(const void* data, std::size_t bytes, std::size_t offset = 0, bool wait = true);
+  void read(void* data, std::size_t bytes, std::size_t offset = 0) const;  // blocking
   std::size_t bytes() const { return bytes_; }
   void* native() const { return memory_; }  // cl_mem, for host/opencl only
+  Device* device() const { return device_; }
 
  private:
   Device* device_ = nullptr;
   void* memory_ = nullptr;
   std::size_t bytes_ = 0;
+};
+
+/// A whole buffer as the host can read it: where device and host share memory nothing is copied. Asked for and given
+/// back in the thread that launches kernels, and given back before a later launch writes to the buffer.
+class RawMapping {
+ public:
+  RawMapping() = default;
+  explicit RawMapping(const RawBuffer& buffer);  // returns at once
+  ~RawMapping();
+  RawMapping(RawMapping&& other) noexcept;
+  RawMapping& operator=(RawMapping&& other) noexcept;
+  /// Waits until all that was launched before is done.
+  const void* data() const;
+
+ private:
+  const RawBuffer* buffer_ = nullptr;
+  void* ready_ = nullptr;  // cl_event
+  void* data_ = nullptr;
 };
 
 template <typename T>
@@ -37,7 +57,7 @@ class Buffer {
   Buffer(Device& device, std::size_t count, const char* what) : raw_(device, count * sizeof(T), what), count_(count) {}
   Buffer(Device& device, std::span<const T> data, const char* what) : Buffer(device, data.size(), what) { write(data); }
 
-  void write(std::span<const T> data) { raw_.write(data.data(), data.size_bytes()); }
+  void write(std::span<const T> data, bool wait = true) { raw_.write(data.data(), data.size_bytes(), 0, wait); }
   void read(std::span<T> data) const { raw_.read(data.data(), data.size_bytes()); }
   std::vector<T> read() const {
     std::vector<T> data(count_);

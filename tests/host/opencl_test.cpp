@@ -80,6 +80,23 @@ TEST(Buffers, ReturnWhatWasWritten) {
   EXPECT_EQ(buffer.read(), values);
 }
 
+TEST(Buffers, MappedShowWhatLaunchesBeforeWrote) {
+  Device device;
+  Kernel copy(device, "roofline", "copy_plane", "copy", "-DW=1");
+  std::vector<float> values = ramp(odd_count);
+  Buffer<float> in(device, values.size(), "in"), out(device, values.size(), "out");
+  for (int turn = 0; turn < 3; ++turn) {
+    for (float& value : values) value += 1;
+    in.write(std::span<const float>(values), false);
+    copy.launch(values.size(), 64, in, out, static_cast<std::uint32_t>(values.size()));
+    RawMapping mapping;
+    mapping = RawMapping(out.raw());
+    const float* seen = static_cast<const float*>(mapping.data());
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), seen)) << turn;
+  }
+  EXPECT_EQ(RawMapping(Buffer<float>(device, 0, "nothing").raw()).data(), nullptr);
+}
+
 TEST(Buffers, AreCounted) {
   Device device;
   {
