@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/frame/geometry.hpp"
+#include "host/frame/spread_order.hpp"
 #include "sim/plants/pieces.hpp"
 #include "sim/random.hpp"
 
@@ -90,12 +91,11 @@ class PrototypeLayout {
       return piece.triangles.size() <= unit_triangles && piece.vertices.size() <= unit_vertices;
     });
     std::vector<Piece> leaves(pieces.begin(), large), others(large, pieces.end());
-    // The order in which leaves go: fixed, and independent of where a leaf stands.
-    std::vector<std::pair<std::uint64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < leaves.size(); ++i) order.emplace_back(mix_bits(leaves[i].triangles.front()), i);
-    std::sort(order.begin(), order.end());
+    // The order in which leaves go: fixed, and independent of where a plant stands.
+    std::vector<glm::vec3> middles;
+    for (const Piece& leaf : leaves) middles.push_back(middle_of(positions_, leaf.vertices));
     std::vector<const Piece*> ordered;
-    for (const auto& [key, i] : order) ordered.push_back(&leaves[i]);
+    for (const std::size_t i : spread_order(middles, limb)) ordered.push_back(&leaves[i]);
     if (!leaves.empty()) {
       const std::size_t whole = add_whole_leaves(run, limb, ordered);
       const bool simple = std::all_of(leaves.begin(), leaves.end(),

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/frame/spread_order.hpp"
 #include "host/frame/thinning.hpp"
-#include "sim/random.hpp"
 
 namespace understory {
 namespace {
@@ -57,9 +57,9 @@ BladeLayout lay_out_blades(const World& world) {
     std::vector<BladeGroup>& groups = layout.groups.emplace_back();
     for (std::size_t first = 0; first < field.size(); first += blades_per_group) {
       const std::size_t end = std::min<std::size_t>(first + blades_per_group, field.size());
-      std::vector<std::pair<std::uint64_t, std::size_t>> order;
-      for (std::size_t i = first; i < end; ++i) order.emplace_back(mix_bits(i), i);
-      std::sort(order.begin(), order.end());
+      std::vector<glm::vec3> roots;
+      for (std::size_t i = first; i < end; ++i) roots.emplace_back(field.root_x[i], field.root_y[i], field.root_z[i]);
+      const std::vector<std::size_t> order = spread_order(roots, first);
       const std::vector<float>* from[] = {&field.root_x,      &field.root_y, &field.root_z, &field.length,
                                           &field.half_width,  &field.bend_x, &field.bend_y, &field.facing,
                                           &field.flexibility, &field.phase};
@@ -68,7 +68,7 @@ BladeLayout lay_out_blades(const World& world) {
                                   &blades.flexibility, &blades.phase};
       for (std::size_t k = 0; k < order.size(); ++k)
         for (std::size_t plane = 0; plane < std::size(from); ++plane)
-          (*to[plane])[first + k] = (*from[plane])[order[k].second];
+          (*to[plane])[first + k] = (*from[plane])[first + order[k]];
       groups.push_back(measure_group(field, first, end, first_blade));
       first_blade += blades_per_group;
     }
@@ -95,7 +95,7 @@ bool in_view(const CameraView& camera, const glm::dvec3& centre, double radius) 
   const double focal = double(camera.focal);
   // Signed distance to the plane through the eye and the image's edge `edge` pixels off the principal point.
   const auto inside = [&](double sideways, double edge) {
-    return sideways * focal + edge * z >= -radius * std::hypot(focal, edge);
+    return sideways * focal + edge * z >= -radius * std::sqrt(focal * focal + edge * edge);
   };
   const double left = double(camera.centre_x) + 1, right = camera.width - double(camera.centre_x) + 1;
   const double top = double(camera.centre_y) + 1, bottom = camera.height - double(camera.centre_y) + 1;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "host/frame/camera_view.hpp"
 #include "host/frame/thinning.hpp"
@@ -82,6 +83,54 @@ TEST(DetailLayout, AUnitNeedsNoVertexOfALaterOne) {
         ASSERT_LT(std::max({layout.a[at], layout.b[at], layout.c[at]}), end);
       }
     }
+}
+
+/// Twice the area of a triangle of a section.
+double area_of(const DetailLayout& layout, const DetailSection& section, std::size_t triangle) {
+  const std::size_t first = std::size_t{section.first_block} * vertex_block;
+  const glm::dvec3 a(rest_point(layout.vertices, first + layout.a[triangle])),
+      b(rest_point(layout.vertices, first + layout.b[triangle])),
+      c(rest_point(layout.vertices, first + layout.c[triangle]));
+  return glm::length(glm::cross(b - a, c - a));
+}
+
+TEST(DetailLayout, ALeafDrawnAsOneTriangleKeepsItsArea) {
+  const World world = windy_meadow();
+  const DetailLayout layout = lay_out_detail(world, true);
+  std::size_t leaves = 0;
+  for (const std::vector<DetailSection>& sections : layout.sections)
+    for (const DetailSection& whole : sections) {
+      if (!whole.thins() || whole.coarse < 0) continue;
+      // Triangles of one leaf follow each other and share corners; what they came from says which leaf each is.
+      std::map<std::uint32_t, double> area_by_source;
+      std::vector<std::uint32_t> members;
+      double area = 0;
+      std::set<std::uint32_t> corners;
+      const auto end_leaf = [&] {
+        for (const std::uint32_t source : members) area_by_source[source] = area;
+        members.clear();
+        corners.clear();
+        area = 0;
+      };
+      for (std::uint32_t t = whole.first_triangle; t < whole.first_triangle + whole.triangles; ++t) {
+        if (layout.source[t] == no_source) continue;
+        const std::uint32_t of[] = {layout.a[t], layout.b[t], layout.c[t]};
+        if (std::none_of(of, of + 3, [&](std::uint32_t v) { return corners.contains(v); })) end_leaf();
+        corners.insert(of, of + 3);
+        members.push_back(layout.source[t]);
+        area += area_of(layout, whole, t);
+      }
+      end_leaf();
+      const DetailSection& coarse = sections[static_cast<std::size_t>(whole.coarse)];
+      for (std::uint32_t t = coarse.first_triangle; t < coarse.first_triangle + coarse.triangles; ++t) {
+        if (layout.source[t] == no_source) continue;
+        ASSERT_TRUE(area_by_source.contains(layout.source[t]));
+        const double expected = area_by_source[layout.source[t]];
+        ASSERT_NEAR(area_of(layout, coarse, t), expected, 1e-4 * expected);
+        ++leaves;
+      }
+    }
+  EXPECT_GT(leaves, 500u);
 }
 
 TEST(DrawList, SpheresHoldTheirSectionsInAStorm) {

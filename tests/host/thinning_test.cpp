@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "host/frame/spread_order.hpp"
+#include "sim/random.hpp"
 
 namespace understory {
 namespace {
@@ -33,6 +37,33 @@ TEST(Thinning, LeavesAGroupAloneThatIsNearEnough) {
 
 TEST(Thinning, DrawsTheShareThatIsAskedFor) {
   for (double share : {0.1, 0.4, 0.9}) EXPECT_NEAR(static_cast<double>(thinned(1000, share).size()), 1000 * share, 1);
+}
+
+TEST(SpreadOrder, HoldsEachPointOnceAndSpreadsEveryFirstPart) {
+  constexpr std::size_t count = 1000;
+  std::vector<glm::vec3> points;
+  Random random(4, 2);
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(random.uniform(), random.uniform(), 0.0);
+  const std::vector<std::size_t> order = spread_order(points, 7);
+  std::vector<std::size_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(sorted[i], i);
+  // Of the first 64, by chance 16 with a deviation of 3.5 would stand in a quarter of the square, 4 in a sixteenth.
+  for (const int cells : {2, 4}) {
+    std::vector<int> inside(static_cast<std::size_t>(cells * cells), 0), all = inside;
+    for (std::size_t k = 0; k < count; ++k) {
+      const glm::ivec2 cell = glm::min(glm::ivec2(glm::vec2(points[order[k]]) * float(cells)), cells - 1);
+      const auto at = static_cast<std::size_t>(cell.y * cells + cell.x);
+      inside[at] += k < 64;
+      ++all[at];
+    }
+    for (std::size_t at = 0; at < inside.size(); ++at) EXPECT_NEAR(inside[at], 64.0 * all[at] / count, 2) << cells;
+  }
+}
+
+TEST(SpreadOrder, TakesPointsThatCoincideAndNone) {
+  EXPECT_TRUE(spread_order({}, 1).empty());
+  EXPECT_EQ(spread_order(std::vector<glm::vec3>(5, glm::vec3(2)), 1).size(), 5u);
 }
 
 TEST(Thinning, ChangesWithoutJumps) {
