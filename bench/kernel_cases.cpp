@@ -295,7 +295,8 @@ std::vector<KernelCase> kernel_cases() {
                                    grid_case("grid"),
                                    grid_case("grid-cone"),
                                    combine_case(),
-                                   environment_case()};
+                                   environment_case(),
+                                   farthest_depth_case()};
   for (auto* more : {&geometry_cases, &image_cases})
     for (KernelCase& one : more()) cases.push_back(std::move(one));
   return cases;

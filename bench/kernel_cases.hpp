@@ -37,6 +37,7 @@ KernelCase visibility_case(
 KernelCase crown_baked_case();
 KernelCase crown_field_case();
 KernelCase environment_case();
+KernelCase farthest_depth_case();
 KernelCase grass_transmittance_case();
 /// grid, or grid-cone with rule multiply.
 KernelCase grid_case(const std::string& method);

@@ -49,6 +49,8 @@ constexpr KernelCost costs[] = {
     {"rasterise-grass", "triangle", 36, 25.6, 129, 0, 0, 4.27, false,
      "edges in whole numbers, whose operations are not counted"},
     {"resolve", "pixel", 13.5, 36, 77, 0, 9, 0, false, "corners are gathered through two indirections: cache misses"},
+    {"farthest-depth", "pixel", 8, 0.0625, 0, 0, 0, 0, false,
+     "a work-item looks at the 64 words of a tile one by one, of eight rows far from each other"},
     {"check-fragments", "fragment", 28, 16, 17, 0, 0, 0, true, ""},
     {"normals-from-depth", "pixel", 8, 12, 92.4, 0, 7, 0, false,
      "one pixel per work-item with branches at its neighbours"},

@@ -76,6 +76,18 @@ BladeLayout lay_out_blades(const World& world) {
   return layout;
 }
 
+bool may_hide(const Prototype& prototype) {
+  return prototype.low.z < prototype.high.z &&
+         std::none_of(prototype.runs.begin(), prototype.runs.end(), [](const TriangleRun& run) {
+           return run.surface == SurfaceClass::leaf || run.surface == SurfaceClass::blade;
+         });
+}
+
+bool has_hiders(const World& world) {
+  return std::any_of(world.instances.begin(), world.instances.end(),
+                     [&](const Instance& instance) { return may_hide(world.prototypes[instance.prototype]); });
+}
+
 glm::vec4 posed_sphere(const LimbPose& limb, const DetailSection& section, double scale) {
   glm::dvec3 p = rows_times(limb.to_limb, glm::dvec3(section.centre));
   const double curvature = double(limb.curvature), angle = curvature * p.x;
@@ -111,6 +123,8 @@ void DrawLister::begin(const Pose& pose, const CameraView& camera) {
   camera_ = camera;
   next_instance_ = next_field_ = next_group_ = next_part_ = 0;
   waiting_.clear();
+  drawn_ = nullptr;
+  has_begun_ = false;
   order_nearest_first();
 }
 
@@ -124,6 +138,10 @@ void DrawLister::order_nearest_first() {
   for (std::uint32_t i = 0; i < world_.instances.size(); ++i)
     instances_.push_back({glm::distance(world_.instances[i].position, pose_->eye), i});
   order(instances_);
+  const auto others = std::stable_partition(instances_.begin(), instances_.end(), [&](const Place& place) {
+    return may_hide(world_.prototypes[world_.instances[place.index].prototype]);
+  });
+  hiders_ = static_cast<std::size_t>(others - instances_.begin());
   groups_.resize(blades_.groups.size());
   for (std::size_t field = 0; field < groups_.size(); ++field) {
     groups_[field].clear();
@@ -131,6 +149,10 @@ void DrawLister::order_nearest_first() {
       groups_[field].push_back({glm::distance(blades_.groups[field][group].centre, pose_->eye), group});
     order(groups_[field]);
   }
+}
+
+bool DrawLister::may_be_seen(const glm::dvec3& centre, double radius) const {
+  return in_view(camera_, centre, radius) && !(drawn_ && is_hidden(*drawn_, centre, radius));
 }
 
 bool DrawLister::more() const {
@@ -165,7 +187,7 @@ void DrawLister::list_instance(std::size_t i, Part& part) const {
       grown = (std::sqrt(double(areas.front())) - 1) * double(section->piece_radius) * instance.scale;
     }
     const glm::vec4 drawn = section == &candidate ? sphere : posed_sphere(limb, *section, instance.scale);
-    if (in_view(camera_, glm::dvec3(drawn), double(drawn.w) + grown)) list_section(*section, instance, areas, part);
+    if (may_be_seen(glm::dvec3(drawn), double(drawn.w) + grown)) list_section(*section, instance, areas, part);
   }
 }
 
@@ -210,7 +232,7 @@ void DrawLister::append(Part& part) {
 
 void DrawLister::list_group(std::size_t field, const BladeGroup& group) {
   const glm::dvec3 centre = group.centre - pose_->eye;
-  if (!in_view(camera_, centre, double(group.radius))) return;
+  if (!may_be_seen(centre, double(group.radius))) return;
   const double scale = double(camera_.focal) / std::max(glm::length(centre), double(camera_.near_plane));
   const std::size_t all = (group.blades + blades_per_unit - 1) / blades_per_unit;
   thin(all, thinned_ ? double(group.width) * scale / blade_pixels : 2.0, widths_);
@@ -240,7 +262,7 @@ void DrawLister::list_grass() {
   list_.first_unit.push_back(static_cast<std::uint32_t>(list_.blade_units.size()));
 }
 
-const DrawList& DrawLister::next() {
+void DrawLister::clear_list() {
   list_.limbs.clear();
   list_.blocks.clear();
   list_.block_scale.clear();
@@ -249,6 +271,26 @@ const DrawList& DrawLister::next() {
   list_.first_unit.clear();
   list_.vertices = 0;
   list_.triangles = 0;
+}
+
+const DrawList& DrawLister::hiders() {
+  clear_list();
+  for (; next_instance_ < hiders_; ++next_instance_) {
+    Part part;
+    list_instance(instances_[next_instance_].index, part);
+    if (list_.vertices > 0 && list_.vertices + part.blocks.size() * vertex_block > most_vertices_) break;
+    append(part);
+  }
+  list_.mesh_chunks = static_cast<std::uint32_t>(list_.chunks.size());
+  list_.first_unit.assign(blades_.fields.size() + 1, 0);
+  has_begun_ = true;
+  return list_;
+}
+
+const DrawList& DrawLister::next() {
+  if (!has_begun_) clear_list();
+  has_begun_ = false;
+  list_.first_unit.clear();
   bool full = false;
   while (!full && (next_part_ < waiting_.size() || next_instance_ < world_.instances.size())) {
     if (next_part_ == waiting_.size()) list_wave();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/frame/detail_layout.hpp"
+#include "host/frame/hidden.hpp"
 #include "host/passes/geometry.hpp"
 #include "sim/pose.hpp"
 
@@ -47,7 +48,12 @@ class DrawLister {
              std::uint32_t most_vertices = 0xffffffffu);
   /// Starts a frame. `pose` without the limbs of plants; it must live as long as the frame is listed.
   void begin(const Pose& pose, const CameraView& camera);
-  /// The next batch, which may be empty; valid until the next call.
+  /// Before the first batch: what may hide the rest, solid bodies and ground with relief in view, as its beginning.
+  /// Nothing is listed when there is none.
+  const DrawList& hiders();
+  /// What is hidden by what is drawn so far is left out from now on. Must live as long as the frame is listed.
+  void leave_out_behind(const DrawnDepth& drawn) { drawn_ = &drawn; }
+  /// The next batch, which may be empty, or the whole of the batch that hiders() began; valid until the next call.
   const DrawList& next();
   /// Whether something is left to be listed.
   bool more() const;
@@ -61,8 +67,11 @@ class DrawLister {
     std::vector<TriangleChunk> chunks;
     std::uint64_t triangles = 0;
   };
-  /// What is nearer hides what comes later, which then costs less.
+  /// What is nearer hides what comes later, which then costs less; what may hide it whole comes first of all.
   void order_nearest_first();
+  void clear_list();
+  /// Whether a sphere is in view and not known to be hidden.
+  bool may_be_seen(const glm::dvec3& centre, double radius) const;
   void list_instance(std::size_t i, Part& part) const;
   void list_section(const DetailSection& section, const Instance& instance, const std::vector<float>& areas,
                     Part& part) const;
@@ -82,7 +91,10 @@ class DrawLister {
   bool thinned_;
   std::uint32_t most_vertices_;
   const Pose* pose_ = nullptr;
+  const DrawnDepth* drawn_ = nullptr;
   CameraView camera_{};
+  std::size_t hiders_ = 0;  // so many come first in instances_
+  bool has_begun_ = false;  // the list, by hiders()
   std::size_t next_instance_ = 0, next_field_ = 0, next_group_ = 0;
   std::vector<Place> instances_;            // nearest first
   std::vector<std::vector<Place>> groups_;  // per field, nearest first
@@ -91,6 +103,11 @@ class DrawLister {
   std::vector<float> widths_;
   DrawList list_;
 };
+
+/// Whether a mesh may hide what is behind it: solid, and no level plane, behind which nothing stands.
+bool may_hide(const Prototype& prototype);
+/// Whether anything in the world may.
+bool has_hiders(const World& world);
 
 /// Centre and radius of a section's sphere at time t, camera-relative m: an arc of curvature k stretches what lies d
 /// beside its axis by at most 1 + |k| d.

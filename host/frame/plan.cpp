@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "host/frame/draw_list.hpp"
 #include "host/frame/near_field.hpp"
 #include "sim/error.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 /// What the scene holds, as far as passes care.
 struct Contents {
   bool meshes = false, grass = false, blades = false, crowns = false, bodies_beside_crowns = false, occluders = false;
-  bool ground_cover = false, dome = true, environment = false;
+  bool ground_cover = false, dome = true, environment = false, hiders = false;
 };
 
 Contents contents_of(const World& world) {
@@ -29,6 +30,7 @@ Contents contents_of(const World& world) {
   contents.ground_cover = world.ground_cover.columns > 0 && world.terrain != nullptr;
   contents.dome = world.scene.sky == Sky::dome;
   contents.environment = world.environment != nullptr;
+  contents.hiders = world.scene.detail != "brute" && has_hiders(world);
   return contents;
 }
 
@@ -60,6 +62,9 @@ void plan_geometry(const Contents& contents, Plan& plan) {
   plan.passes.push_back({"clear_visible", "rasterise", "every frame", ""});
   if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", bodies, "plants, occluders, terrain"});
   if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
+  if (contents.hiders)
+    plan.passes.push_back(
+        {"farthest_depth", "farthest_depth", "solid bodies or relief, which may hide what is behind", "detail"});
   plan.passes.push_back({"resolve", "resolve", "every frame", ""});
   if (!contents.meshes)
     plan.left_out.push_back({"posing and drawing of bodies", "no plants, occluders or terrain", "plants"});

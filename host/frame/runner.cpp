@@ -115,10 +115,15 @@ void FrameRunner::Impl::draw_seen() {
   seen->begin(pose, camera);
   batch = {};
   drawn_triangles = 0;
+  const bool hiders = seen->pose_hiders();
+  if (hiders) {
+    rasterise->run(drawn().triangles, drawn().posed, camera, visible);
+    seen->leave_out_behind(visible);
+  }
   while (true) {
     batch.last = !seen->pose_next(series);
     drawn_triangles += seen->list().triangles;
-    rasterise->run(drawn().triangles, drawn().posed, camera, visible, batch.first);
+    rasterise->run(drawn().triangles, drawn().posed, camera, visible, batch.first && !hiders, seen->first_chunk());
     if (batch.last) return;
     resolve_batch();  // the next one overwrites its vertices
     batch.first = false;

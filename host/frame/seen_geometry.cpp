@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/shared/farthest_depth.h"
+
 namespace understory {
 namespace {
 
@@ -10,11 +12,16 @@ Buffer<T> uploaded(Device& device, const std::vector<T>& data, const char* what)
   return data.empty() ? Buffer<T>() : Buffer<T>(device, std::span<const T>(data), what);
 }
 
-/// Writes a list of this frame, into more memory when it must. `wait`: as RawBuffer::write.
+/// Writes the rows of a list from `first` on, or all of them into more memory when it must. `wait`: as
+/// RawBuffer::write.
 template <typename T>
-void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, const char* what, bool wait = false) {
-  if (buffer.size() < rows.size()) buffer = Buffer<T>(device, rows.size() + rows.size() / 4, what);
-  if (!rows.empty()) buffer.write(std::span<const T>(rows), wait);
+void rewrite(Device& device, Buffer<T>& buffer, const std::vector<T>& rows, const char* what, std::size_t first = 0,
+             bool wait = false) {
+  if (buffer.size() < rows.size()) {
+    buffer = Buffer<T>(device, rows.size() + rows.size() / 4, what);
+    first = 0;
+  }
+  if (first < rows.size()) buffer.write(std::span<const T>(rows).subspan(first), wait, first);
 }
 
 /// A quarter is left for what the next frame may see more.
@@ -35,6 +42,7 @@ SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned, std
   if (!world.instances.empty()) pose_mesh_.emplace(device, thinned);
   if (std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; }))
     pose_grass_.emplace(device, true);
+  if (device.info().atomic64 && has_hiders(world)) farthest_depth_.emplace(device);
 }
 
 void SeenGeometry::upload(const DetailLayout& layout, const World& world) {
@@ -57,21 +65,36 @@ void SeenGeometry::upload(const DetailLayout& layout, const World& world) {
 
 void SeenGeometry::begin(const Pose& pose, const CameraView& camera) {
   pose_ = &pose;
+  camera_ = camera;
+  limbs_there_ = blocks_there_ = chunks_there_ = 0;
   lister_.begin(pose, camera);
+}
+
+bool SeenGeometry::pose_hiders() {
+  if (!farthest_depth_) return false;
+  list_ = &lister_.hiders();
+  if (list_->chunks.empty()) return false;
+  pose_list();
+  limbs_there_ = list_->limbs.size();
+  blocks_there_ = list_->blocks.size();
+  chunks_there_ = list_->chunks.size();
+  return true;
+}
+
+void SeenGeometry::leave_out_behind(const VisibilityBuffer& visible) {
+  const std::size_t tiles = std::size_t{farthest_tiles(static_cast<std::uint32_t>(camera_.width))} *
+                            farthest_tiles(static_cast<std::uint32_t>(camera_.height));
+  if (farthest_.size() != tiles) farthest_ = Buffer<float>(device_, tiles, "farthest depths");
+  farthest_depth_->run(visible, camera_, farthest_);
+  drawn_ = {camera_, farthest_.read()};
+  if (drawn_.hides()) lister_.leave_out_behind(drawn_);
 }
 
 bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
   list_ = &lister_.next();
-  write_list();
-  geometry_.triangles.mesh_chunks = list_->mesh_chunks;
-  geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->chunks.size()) - list_->mesh_chunks;
-  geometry_.vertices = list_->vertices;
-  geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->blocks.size() * vertex_block);
-  if (geometry_.posed.points.size() < list_->vertices)
-    geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
-  if (!list_->blocks.empty())
-    pose_mesh_->run(geometry_.rest, geometry_.blocks, list_->blocks.size(), limbs_, thinned_ ? &enlarged_ : nullptr,
-                    geometry_.posed);
+  first_chunk_ = static_cast<std::uint32_t>(chunks_there_);
+  pose_list();
+  limbs_there_ = blocks_there_ = chunks_there_ = 0;  // the next batch is a new list
   for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
     const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
     if (count > 0)
@@ -82,12 +105,28 @@ bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
 }
 
 void SeenGeometry::write_list() {
-  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks");
-  rewrite(device_, limbs_, list_->limbs, "limb poses");
-  if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves");
+  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks", blocks_there_);
+  rewrite(device_, limbs_, list_->limbs, "limb poses", limbs_there_);
+  if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves", blocks_there_);
   rewrite(device_, blade_units_, list_->blade_units, "blade units");
   // The queue is in order: when this one is written, all are. Nothing is listed without a chunk.
-  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks", true);
+  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks", chunks_there_, true);
+}
+
+void SeenGeometry::pose_list() {
+  write_list();
+  geometry_.triangles.mesh_chunks = list_->mesh_chunks;
+  geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->chunks.size()) - list_->mesh_chunks;
+  geometry_.vertices = list_->vertices;
+  geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->blocks.size() * vertex_block);
+  std::size_t first_block = blocks_there_;
+  if (geometry_.posed.points.size() < list_->vertices) {
+    geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
+    first_block = 0;
+  }
+  if (first_block < list_->blocks.size())
+    pose_mesh_->run(geometry_.rest, geometry_.blocks, first_block, list_->blocks.size(), limbs_,
+                    thinned_ ? &enlarged_ : nullptr, geometry_.posed);
 }
 
 const Buffer<std::array<std::uint32_t, 2>>* SeenGeometry::faces(

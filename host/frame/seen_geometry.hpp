@@ -7,6 +7,7 @@
 
 #include "host/frame/draw_list.hpp"
 #include "host/frame/geometry.hpp"
+#include "host/passes/farthest_depth.hpp"
 #include "host/passes/pose_grass.hpp"
 #include "host/passes/pose_mesh.hpp"
 
@@ -26,9 +27,16 @@ class SeenGeometry {
 
   /// Starts a frame of `pose` (without the limbs of plants), which must live until its last batch is posed.
   void begin(const Pose& pose, const CameraView& camera);
-  /// Poses the next batch of what the camera sees; geometry() then holds its vertices and chunks. `series`: per
-  /// World::grass. Returns whether more follow.
+  /// Poses what may hide the rest of the frame, before its first batch. False: there is nothing of the kind in view, or
+  /// the device has no 64-bit atomics, without which a batch is drawn at once.
+  bool pose_hiders();
+  /// Leaves out what is hidden behind the hiders, once they are drawn.
+  void leave_out_behind(const VisibilityBuffer& visible);
+  /// Poses the next batch of what the camera sees; geometry() then holds its vertices and chunks, after those of the
+  /// hiders in the first batch. `series`: per World::grass. Returns whether more follow.
   bool pose_next(const std::vector<SwaySeries>& series);
+  /// The batch's first chunk that is not drawn yet.
+  std::uint32_t first_chunk() const { return first_chunk_; }
   const Geometry& geometry() const { return geometry_; }
   /// The last batch.
   const DrawList& list() const { return *list_; }
@@ -38,6 +46,7 @@ class SeenGeometry {
  private:
   void upload(const DetailLayout& layout, const World& world);
   void write_list();
+  void pose_list();
 
   Device& device_;
   bool thinned_;
@@ -46,6 +55,12 @@ class SeenGeometry {
   DrawLister lister_;
   const Pose* pose_ = nullptr;
   const DrawList* list_ = nullptr;
+  std::size_t limbs_there_ = 0, blocks_there_ = 0, chunks_there_ = 0;  // of the list: on the device and posed already
+  std::uint32_t first_chunk_ = 0;
+  CameraView camera_{};
+  DrawnDepth drawn_;
+  std::optional<FarthestDepthPass> farthest_depth_;  // where something may hide something
+  Buffer<float> farthest_;
   Geometry geometry_;
   EnlargedLeaves enlarged_;
   Buffer<LimbPose> limbs_;

@@ -57,7 +57,10 @@ class Buffer {
   Buffer(Device& device, std::size_t count, const char* what) : raw_(device, count * sizeof(T), what), count_(count) {}
   Buffer(Device& device, std::span<const T> data, const char* what) : Buffer(device, data.size(), what) { write(data); }
 
-  void write(std::span<const T> data, bool wait = true) { raw_.write(data.data(), data.size_bytes(), 0, wait); }
+  /// From element `first` on. `wait`: as RawBuffer::write.
+  void write(std::span<const T> data, bool wait = true, std::size_t first = 0) {
+    raw_.write(data.data(), data.size_bytes(), first * sizeof(T), wait);
+  }
   void read(std::span<T> data) const { raw_.read(data.data(), data.size_bytes()); }
   std::vector<T> read() const {
     std::vector<T> data(count_);

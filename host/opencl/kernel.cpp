@@ -101,7 +101,7 @@ void Kernel::set_value(unsigned index, const void* value, std::size_t bytes) {
   }
 }
 
-void Kernel::enqueue(std::size_t items, std::size_t local, unsigned arguments) {
+void Kernel::enqueue(std::size_t first, std::size_t items, std::size_t local, unsigned arguments) {
   if (arguments != impl_->arguments) {
     impl_->fail("takes " + std::to_string(impl_->arguments) + " arguments, " + std::to_string(arguments) +
                 " were given");
@@ -113,7 +113,7 @@ void Kernel::enqueue(std::size_t items, std::size_t local, unsigned arguments) {
   Device::Impl& on = impl_->device->impl();
   cl::Event event;
   const cl_int status =
-      clEnqueueNDRangeKernel(on.queue(), impl_->kernel(), 1, nullptr, &global, &local, 0, nullptr, &event());
+      clEnqueueNDRangeKernel(on.queue(), impl_->kernel(), 1, &first, &global, &local, 0, nullptr, &event());
   if (status != CL_SUCCESS) {
     impl_->fail("launch of " + std::to_string(global) + " work-items in groups of " + std::to_string(local) +
                 " failed: " + status_text(status));

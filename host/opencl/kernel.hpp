@@ -27,9 +27,14 @@ class Kernel {
   /// Buffer<T> or plain values of the exact size the kernel declares.
   template <typename... Args>
   void launch(std::size_t items, std::size_t local, const Args&... args) {
+    launch_from(0, items, local, args...);
+  }
+  /// The same for work-items `first` up to `first` + `items`.
+  template <typename... Args>
+  void launch_from(std::size_t first, std::size_t items, std::size_t local, const Args&... args) {
     unsigned index = 0;
     (set(index++, args), ...);
-    enqueue(items, local, index);
+    enqueue(first, items, local, index);
   }
 
  private:
@@ -42,7 +47,7 @@ class Kernel {
   void set(unsigned index, const T& value) { set_value(index, &value, sizeof(T)); }
   void set_buffer(unsigned index, const RawBuffer& buffer);
   void set_value(unsigned index, const void* value, std::size_t bytes);
-  void enqueue(std::size_t items, std::size_t local, unsigned arguments);
+  void enqueue(std::size_t first, std::size_t items, std::size_t local, unsigned arguments);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -12,9 +12,10 @@ class PoseMeshPass {
   /// Writes 16 * blocks.size() vertices at the start of `posed`. Indices in `blocks` are the caller's to get right.
   void run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, const Buffer<LimbPose>& limbs,
            PosedVertices& posed);
-  /// The same for the first `count` blocks. `enlarged` is needed when the pass was made for it.
-  void run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, std::size_t count, const Buffer<LimbPose>& limbs,
-           const EnlargedLeaves* enlarged, PosedVertices& posed);
+  /// The same for blocks `first` up to `end`, to the places that follow from their numbers. `enlarged` is needed when
+  /// the pass was made for it.
+  void run(const RestVertices& rest, const Buffer<PosedBlock>& blocks, std::size_t first, std::size_t end,
+           const Buffer<LimbPose>& limbs, const EnlargedLeaves* enlarged, PosedVertices& posed);
 
  private:
   bool thinned_;

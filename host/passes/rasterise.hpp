@@ -17,9 +17,10 @@ class RasterisePass {
   /// `mesh`, `grass`: which kinds of triangles the scene has; kernels of an absent kind are not built.
   /// `wide_atomics` false: the two-pass form for devices without 64-bit atomics; same pixels.
   RasterisePass(Device& device, bool mesh, bool grass, bool wide_atomics);
-  /// Draws every triangle of the kinds this pass was made for, into a cleared buffer or over what it holds.
+  /// Draws every triangle of the kinds this pass was made for, into a cleared buffer or over what it holds. Those of
+  /// the chunks before `first_chunk`, which are of meshes, it holds already: with 64-bit atomics only.
   void run(const TriangleTables& triangles, const PosedVertices& posed, const CameraView& camera,
-           VisibilityBuffer& visible, bool clear = true);
+           VisibilityBuffer& visible, bool clear = true, std::uint32_t first_chunk = 0);
 
  private:
   std::size_t lanes_;
