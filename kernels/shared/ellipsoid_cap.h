@@ -33,10 +33,15 @@ SHARED real ellipsoid_cap(Direction unit, Direction normal, Direction first, Dir
   // The inverse transpose of rows m_i at right angles has the rows m_i / |m_i|^2, and 1 / |m_i| is the radius along m_i.
   const real a = squares.x * dot_product(first, normal), b = squares.y * dot_product(second, normal),
              c = squares.z * dot_product(third, normal);
-  const real shrink = REAL(1.0) / sqrt(at_least(fma(a, a, fma(b, b, c * c)), REAL(1e-30)));
-  const real occluders =
-      volume_scale * cap_occluders(unit.x, unit.y, unit.z, a * shrink, b * shrink, c * shrink, REAL(1.0));
-  return cap_visibility(alpha_rho, occluders);
+  // Eq. 4 and 5 with h = H / r and d = |unit x n| / r, r being the length of n = (a, b, c): with one division.
+  const real square = at_least(fma(a, a, fma(b, b, c * c)), REAL(1e-30)), r = sqrt(square);
+  const real s = fma(unit.x, a, fma(unit.y, b, unit.z * c));
+  const real h = at_most(at_least(r - s, REAL(0.0)), REAL(2.0) * r), h_square = h * h;
+  const real ox = fma(unit.y, c, -(unit.z * b)), oy = fma(unit.z, a, -(unit.x * c)), oz = fma(unit.x, b, -(unit.y * a));
+  const real off_axis = fma(ox, ox, fma(oy, oy, oz * oz));
+  const real below = at_least(h_square + off_axis, REAL(1e-30) * square) * (square * r);
+  const real above = REAL(1.0471975511965976) * alpha_rho * volume_scale * h_square * h_square * fma(REAL(3.0), r, -h);
+  return cap_visibility(above / below);
 }
 
 #ifndef __OPENCL_C_VERSION__

@@ -12,27 +12,34 @@
 namespace understory {
 #endif
 
-/// f Vcap, m^3 (in units of the radius' unit). (x, y, z): fragment from the sphere's centre; (a, b, c): unit normal.
-SHARED real cap_occluders(real x, real y, real z, real a, real b, real c, real radius) {
-  const real s = fma(x, a, fma(y, b, z * c));
+/// density f Vcap. `s`: signed distance of the fragment's plane from the centre; `off_axis`: d^2.
+SHARED real cap_content(real s, real off_axis, real radius, real density) {
   const real h = at_most(at_least(radius - s, REAL(0.0)), REAL(2.0) * radius);
+  const real square = h * h;
+  // f is 0/0 at h = d = 0 while f Vcap -> 0. The rest is multiplied beside the division, which takes longest.
+  const real share = square / at_least(square + off_axis, REAL(1e-30));
+  return share * (REAL(1.0471975511965976) * density * square * fma(REAL(3.0), radius, -h));
+}
+
+/// The same on a sphere. (x, y, z): fragment from its centre; (a, b, c): unit normal.
+SHARED real cap_content_at(real x, real y, real z, real a, real b, real c, real radius, real density) {
+  const real s = fma(x, a, fma(y, b, z * c));
   // Component by component the offset from the axis keeps its digits, where |p|^2 - s^2 cancels.
   const real ox = fma(-s, a, x), oy = fma(-s, b, y), oz = fma(-s, c, z);
-  const real off_axis = fma(ox, ox, fma(oy, oy, oz * oz));
-  const real square = h * h;
-  // f is 0/0 at h = d = 0 while f Vcap -> 0.
-  const real share = square / at_least(square + off_axis, REAL(1e-30));
-  return REAL(1.0471975511965976) * share * square * fma(REAL(3.0), radius, -h);
+  return cap_content(s, fma(ox, ox, fma(oy, oy, oz * oz)), radius, density);
 }
 
-/// V of eq. 6. `alpha_rho`: 1/m^3; `occluders`: f Vcap, m^3.
-SHARED real cap_visibility(real alpha_rho, real occluders) {
-  return as_visibility(exp_minus(at_least(alpha_rho * occluders, REAL(0.0))));
+/// f Vcap, m^3 (in units of the radius' unit).
+SHARED real cap_occluders(real x, real y, real z, real a, real b, real c, real radius) {
+  return cap_content_at(x, y, z, a, b, c, radius, REAL(1.0));
 }
 
-/// V of the crown sphere.
+/// V of eq. 6. `content`: alpha rho f Vcap.
+SHARED real cap_visibility(real content) { return as_visibility(exp_minus(at_least(content, REAL(0.0)))); }
+
+/// V of the crown sphere. `alpha_rho`: 1/m^3.
 SHARED real sphere_cap(real x, real y, real z, real a, real b, real c, real radius, real alpha_rho) {
-  return cap_visibility(alpha_rho, cap_occluders(x, y, z, a, b, c, radius));
+  return cap_visibility(cap_content_at(x, y, z, a, b, c, radius, alpha_rho));
 }
 
 /// 1 where (x, y, z), relative to the centre, lies outside a sphere of `radius`; a little is rounding, not outside.
