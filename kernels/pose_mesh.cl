@@ -33,11 +33,13 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   }
   real px = LOAD(rest_x, rest), py = LOAD(rest_y, rest), pz = LOAD(rest_z, rest);
 #ifdef THINNED
-  const real scale = (real)(block_scale[i / per_block]);
-  const real mx = LOAD(pivot_x, rest), my = LOAD(pivot_y, rest), mz = LOAD(pivot_z, rest);
-  px = fma(scale, px - mx, mx);
-  py = fma(scale, py - my, my);
-  pz = fma(scale, pz - mz, mz);
+  const float scale = block_scale[i / per_block];
+  if (scale != 1.0f) {  // one for the whole block: wood and near leaves stay as they are, and their middles unread
+    const real mx = LOAD(pivot_x, rest), my = LOAD(pivot_y, rest), mz = LOAD(pivot_z, rest);
+    px = fma((real)(scale), px - mx, mx);
+    py = fma((real)(scale), py - my, my);
+    pz = fma((real)(scale), pz - mz, mz);
+  }
 #endif
   const real turns =
       fma(LOAD_BYTE(flutter_phase, rest), REAL(0.00390625), (real)(limb->flutter_phase * 0.15915494f));
