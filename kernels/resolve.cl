@@ -2,8 +2,8 @@
 // viewer (leaves are two-sided), camera depth, owner, validity; with -DGRASS_HEIGHT also the height of a blade's
 // fragment above its root and the blade's length, or the height of the mesh it is part of; with -DREST_POINT also where
 // a mesh fragment and its face normal were at rest, prototype frame; with -DFACE_TEXEL the texel of its face
-// (crown_baked.h). One work-item per W fragments: their triangles lie anywhere in memory, so that the loads of all of
-// them come first and wait for it side by side. Padded fragments are background.
+// (crown_baked.h). One work-item per W fragments: their triangles lie anywhere in memory, so that work-items ask for
+// what the next two of them will read. Padded fragments are background.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/crown_baked.h"
 #include "kernels/shared/fetch_ahead.h"
@@ -13,6 +13,13 @@
 #include "kernels/shared/visibility_buffer.h"
 
 #define BACKGROUND 1u  // validity code (FORMULAS.md)
+
+static inline Corners corners_of(global const TriangleChunk* chunks, uint mesh_chunks, uint triangle,
+                                 global const uint* index_a, global const uint* index_b, global const uint* index_c) {
+  global const TriangleChunk* chunk = chunks + triangle / CHUNK;
+  return triangle / CHUNK < mesh_chunks ? mesh_corners(chunk, triangle % CHUNK, index_a, index_b, index_c)
+                                        : grass_corners(chunk, triangle % CHUNK);
+}
 
 kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* chunks, uint mesh_chunks,
                     global const uint* index_a, global const uint* index_b, global const uint* index_c,
@@ -43,29 +50,31 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
   if (begin >= padded_fragments) return;
   const uint count = (uint)camera.width * (uint)camera.height;
   uint triangles[W];
-  Corners corners_of[W];
   int seen_lanes[W];
   uint owner_lanes[W];
   float corner[9][W];  // x, y, z of corners a, b, c
   float column[W], row[W];
   for (uint k = 0; k < W; ++k)
     triangles[k] = begin + k < count ? visible_triangle(pixels, count, begin + k) : NO_TRIANGLE;
+  // Two work-items ahead the corners' places are asked for, one ahead the corners. Not while others forget theirs.
+  const uint ahead = last_batch ? W : 0;
   for (uint k = 0; k < W; ++k) {
-    if (triangles[k] / CHUNK >= mesh_chunks) continue;
-    const uint t = chunks[triangles[k] / CHUNK].first_index + triangles[k] % CHUNK;
+    const uint i = begin + 2 * ahead + k;
+    const uint later = i < count ? visible_triangle(pixels, count, i) : NO_TRIANGLE;
+    if (later / CHUNK >= mesh_chunks) continue;
+    const uint t = chunks[later / CHUNK].first_index + later % CHUNK;
     fetch_ahead(index_a + t);
     fetch_ahead(index_b + t);
     fetch_ahead(index_c + t);
   }
   for (uint k = 0; k < W; ++k) {
-    if (triangles[k] == NO_TRIANGLE) continue;
-    global const TriangleChunk* chunk = chunks + triangles[k] / CHUNK;
-    corners_of[k] = triangles[k] / CHUNK < mesh_chunks
-                        ? mesh_corners(chunk, triangles[k] % CHUNK, index_a, index_b, index_c)
-                        : grass_corners(chunk, triangles[k] % CHUNK);
-    fetch_ahead(posed + corners_of[k].a);
-    fetch_ahead(posed + corners_of[k].b);
-    fetch_ahead(posed + corners_of[k].c);
+    const uint i = begin + ahead + k;
+    const uint next = i < count ? visible_triangle(pixels, count, i) : NO_TRIANGLE;
+    if (next == NO_TRIANGLE) continue;
+    const Corners corners = corners_of(chunks, mesh_chunks, next, index_a, index_b, index_c);
+    fetch_ahead(posed + corners.a);
+    fetch_ahead(posed + corners.b);
+    fetch_ahead(posed + corners.c);
   }
   for (uint k = 0, x = begin % (uint)camera.width, y = begin / (uint)camera.width; k < W; ++k) {
     const int seen = triangles[k] != NO_TRIANGLE;
@@ -73,10 +82,11 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     seen_lanes[k] = seen;
     owner_lanes[k] = 0;
     if (seen) {
+      const Corners corners = corners_of(chunks, mesh_chunks, triangles[k], index_a, index_b, index_c);
       owner_lanes[k] = chunks[triangles[k] / CHUNK].owner;
-      a = posed[corners_of[k].a];
-      b = posed[corners_of[k].b];
-      c = posed[corners_of[k].c];
+      a = posed[corners.a];
+      b = posed[corners.b];
+      c = posed[corners.c];
     }
     corner[0][k] = a.x, corner[1][k] = a.y, corner[2][k] = a.z;
     corner[3][k] = b.x, corner[4][k] = b.y, corner[5][k] = b.z;
@@ -184,9 +194,10 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
 #endif
 #ifdef REST_POINT
     if (is_mesh) {
-      const float3 origin = rest_vertex(corners_of[k].a, blocks, rest_x, rest_y, rest_z);
-      const float3 u = rest_vertex(corners_of[k].b, blocks, rest_x, rest_y, rest_z) - origin;
-      const float3 v = rest_vertex(corners_of[k].c, blocks, rest_x, rest_y, rest_z) - origin;
+      const Corners corners = corners_of(chunks, mesh_chunks, triangle, index_a, index_b, index_c);
+      const float3 origin = rest_vertex(corners.a, blocks, rest_x, rest_y, rest_z);
+      const float3 u = rest_vertex(corners.b, blocks, rest_x, rest_y, rest_z) - origin;
+      const float3 v = rest_vertex(corners.c, blocks, rest_x, rest_y, rest_z) - origin;
       const float3 point = origin + place.x * u + place.y * v;
       float3 normal = cross(u, v);
       normal *= turns[k] * rsqrt(fmax(dot(normal, normal), 1e-37f));
