@@ -9,7 +9,7 @@ namespace understory {
 
 /// Projected sizes below which elements go and the others grow, pixels: roots of a leaf's area, widths of a blade. What
 /// is drawn stands for what is not by chance, so that the error of V falls with the root of the number of elements.
-inline constexpr double leaf_pixels = 0.8, blade_pixels = 0.4;
+inline constexpr double leaf_pixels = 0.85, blade_pixels = 0.43;
 /// A twig thinner than this on the screen is drawn as a cone, pixels.
 inline constexpr double twig_pixels = 0.5;
 /// Share of the drawn units that are on their way in or out, smaller than the others: nothing appears at full size.
