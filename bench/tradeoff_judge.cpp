@@ -86,6 +86,7 @@ void TradeoffJudge::look_at(const std::vector<int>& frames) {
   auto found = traced_.find(frames);
   if (found == traced_.end()) {
     options_.frames = frames;
+    world_.scene.camera = camera_;  // views are laid out from the scene's own
     choose(bare_variant(world_.scene));
     found = traced_.emplace(frames, judged_views(runner_, world_, options_)).first;
   }

@@ -1,7 +1,7 @@
 // `obscurance-area`: as obscurance_line.cl, but each line asks the moments of depth over its share of the disc instead of
 // one pixel (Loos & Sloan 2010 section 4.2). -DSPREAD: half-width of the box of depths in standard deviations. What the
-// tangent plane itself spreads is taken off first, so that a slant counts as flat. -DNORMALS, -DTHICKNESS, -DRADII as
-// there. One work-item per W fragments; planes are padded.
+// tangent plane itself spreads is taken off first, so that a slant counts as flat. -DNORMALS, -DRADII as there;
+// -DTHICKNESS: all is open from the thickness on. One work-item per W fragments; planes are padded.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/depth_moments.h"
 #include "kernels/shared/obscurance_fragments.h"

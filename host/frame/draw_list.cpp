@@ -218,6 +218,10 @@ void DrawLister::list_wave() {
 }
 
 void DrawLister::append(Part& part) {
+  if (part.chunks.empty()) {  // nothing of it is drawn
+    part = Part();
+    return;
+  }
   const auto limb = static_cast<std::uint32_t>(list_.limbs.size());
   for (PosedBlock& block : part.blocks) block.limb_pose += limb;
   for (TriangleChunk& chunk : part.chunks) chunk.first_vertex += list_.vertices;

@@ -63,8 +63,9 @@ void plan_geometry(const Contents& contents, Plan& plan) {
   if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", bodies, "plants, occluders, terrain"});
   if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
   if (contents.hiders)
-    plan.passes.push_back(
-        {"farthest_depth", "farthest_depth", "solid bodies or relief, which may hide what is behind", "detail"});
+    plan.passes.push_back({"farthest_depth", "farthest_depth",
+                           "solid bodies or relief may hide what is behind, where the device has 64-bit atomics",
+                           "detail"});
   plan.passes.push_back({"resolve", "resolve", "every frame", ""});
   if (!contents.meshes)
     plan.left_out.push_back({"posing and drawing of bodies", "no plants, occluders or terrain", "plants"});

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <string>
+
+#include "sim/error.hpp"
 
 namespace understory {
 namespace {
@@ -20,6 +23,10 @@ class PlaneCopies {
   };
   template <typename T>
   Seen<T> map(const Buffer<T>& buffer) {
+    const std::size_t needed = row_length_ * (height_ + (row_length_ - width_));  // with as many guard rows as columns
+    if (buffer.size() < needed)
+      throw Error(ErrorKind::unexpected, "a plane of " + std::to_string(needed) + " values was to be read, and " +
+                                             std::to_string(buffer.size()) + " are there");
     return {&mappings_.emplace_back(buffer.raw())};
   }
 

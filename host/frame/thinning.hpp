@@ -8,7 +8,8 @@
 namespace understory {
 
 /// Projected sizes below which elements go and the others grow, pixels: roots of a leaf's area, widths of a blade. What
-/// is drawn stands for what is not by chance, so that the error of V falls with the root of the number of elements.
+/// is drawn is spread evenly over what it stands for (spread_order.hpp); V then stays within 0.01 of brute force after
+/// a filter of 8 x 8 pixels (bench/scale.md).
 inline constexpr double leaf_pixels = 0.85, blade_pixels = 0.43;
 /// A twig thinner than this on the screen is drawn as a cone, pixels.
 inline constexpr double twig_pixels = 0.5;

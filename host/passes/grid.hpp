@@ -12,7 +12,7 @@ class GridPass {
   /// `method`: grid, or grid-self-paper. Throws Error(unexpected) for another.
   GridPass(Device& device, const std::string& method, int lanes = 0);
   /// `grids`: packed_share samples. `visibility`: [0, 1], sized like the planes; 1 outside all grids. Adds validity
-  /// code 128 to fragments near the border of a grid.
+  /// code 128 to fragments near the border of a grid, 16 deep within a solid.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const GridTable& grids, Buffer<float>& visibility);
 
  private:

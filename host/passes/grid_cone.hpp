@@ -17,7 +17,7 @@ class GridConePass {
   GridConePass(Device& device, const std::string& method, const std::string& combine, int lanes = 0,
                bool cones = false);
   /// `grids`: packed_cone samples. `visibility`: V_c, sized like the planes; 1 outside all grids. Adds validity code
-  /// 128 to fragments near the border of a grid.
+  /// 128 to fragments near the border of a grid, 16 deep within another body's solid.
   /// `cones`: sized like the planes, exactly for a pass that was built for them.
   void run(const FragmentPlanes& planes, const OwnerTables& owners, const GridTable& grids, Buffer<float>& visibility,
            const ConePlanes* cones = nullptr);

@@ -29,7 +29,7 @@ void keep_given(const SpeciesSource& source, CrownModel& model) {
 }
 
 /// Raised whenever the same plant would get other constants.
-constexpr int method_version = 2;
+constexpr int method_version = 3;
 
 ContentHash hash_of(const Prototype& prototype, double ambient) {
   ContentHash hash;

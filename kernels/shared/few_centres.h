@@ -45,8 +45,8 @@ static inline FewCentres few_centres(const CameraView* camera, ProjectedCorners 
   few.columns = right - left + 1;
   const whole rows = bottom - top + 1;
   few.centres = few.columns * rows;
-  few.few = counts & (few.columns <= FEW_ACROSS) & (rows <= FEW_ACROSS) & (few.centres <= FEW_CENTRES) & (left >= 0) & (right < camera->width) &
-            (top >= 0) & (bottom < camera->height);
+  few.few = counts & (few.columns <= FEW_ACROSS) & (rows <= FEW_ACROSS) & (few.centres <= FEW_CENTRES) & (left >= 0) &
+            (right < camera->width) & (top >= 0) & (bottom < camera->height);
   few.pixel = top * camera->width + left;
 
   // Corners b and c change places where the triangle turns the other way.

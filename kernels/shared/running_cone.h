@@ -77,9 +77,9 @@ SHARED void combine_multiply(PRIVATE RunningCone* running, const RunningCone nex
   running->cosine = fma(REAL(1.0) - running->cosine, next.cosine, running->cosine);
 }
 
-/// What two cones share geometrically the denser one blocks, and the other hides behind it: the parts of a body do so more
-/// than chance has it, and of opaque cones it is the same. Its cosine is the mean of the cones' cosines, the smaller cone's
-/// counting more: it is the smaller cone's where that lies within the other.
+/// What two cones share geometrically the denser one blocks, and the other hides behind it: the parts of a body do so
+/// more than chance has it, and of opaque cones it is the same. Its cosine is the mean of the cones' cosines, the smaller
+/// cone's counting more: it is the smaller cone's where that lies within the other.
 SHARED void combine_merge(PRIVATE RunningCone* running, const RunningCone next) {
   const real p = at_least(running->share, REAL(1e-9)), q = at_least(next.share, REAL(1e-9));
   const real lean = fma(running->x, next.x, fma(running->y, next.y, running->z * next.z));

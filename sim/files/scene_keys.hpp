@@ -309,7 +309,7 @@ void keys(Archive& a, NearField& near_field) {
          "weight over the ball: 1, or 1 - (r/radius)^2; cosine: 1 over the largest ball in front of the tangent plane");
   a.word("normals", near_field.normals, {"buffer", "depth", "none"}, "clamp to the tangent plane; from where");
   a.number("thickness", near_field.thickness, optional_above_zero(1000, "m", 0),
-           "mean, of what is seen; open behind it; left out: 5 radii");
+           "of what is seen, on the mean (areas: exactly); open behind it; left out: 5 times `radius`");
   a.integer("blur", near_field.blur, 0, 16, "radius of the edge-aware blur, pixels");
   a.flag("half_resolution", near_field.half_resolution, "every second pixel, then depth-aware upsampling");
   a.integer("guard", near_field.guard, 0, 1024, "pixels drawn around the image for samples that leave it");
@@ -375,8 +375,10 @@ void keys(Archive& a, Scene& scene) {
   a.check(names_differ(scene.occluders), "occluders", "a name of its own for each occluder");
   a.record("environment", scene.environment, "coloured light of a picture of the sky; left out: a uniform sky");
   a.record("methods", scene.methods, "which model of visibility shades what");
-  a.word("detail", scene.detail, {"brute", "culled", "thinned"},
-         "what is drawn: everything; what is in view; and fewer, larger leaves and blades far away");
+  a.word(
+      "detail", scene.detail, {"brute", "culled", "thinned"},
+      "what is drawn: everything; what is in view and not behind solid bodies; and fewer, larger leaves and blades far "
+      "away");
   a.at_least_one({"terrain", "plants", "grass", "occluders"});
 }
 

@@ -49,6 +49,12 @@ TEST(TradeoffJudge, GoesOnWithOtherFramesAndComesBack) {
   judged.judge.look_at({1});
   ASSERT_EQ(judged.judge.views().size(), 2u);
   for (const JudgedView& view : judged.judge.views()) EXPECT_EQ(view.frame, 1);
+  Judged fresh(16);
+  fresh.judge.look_at({1});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(judged.judge.views()[i].eye.position, fresh.judge.views()[i].eye.position) << i;
+    EXPECT_EQ(judged.judge.views()[i].pixels, fresh.judge.views()[i].pixels) << i;
+  }
   EXPECT_NE(truths(judged.judge), first);
   judged.judge.look_at({0, 3});
   EXPECT_EQ(truths(judged.judge), first);
