@@ -103,12 +103,13 @@ std::vector<DetailRow> measure_detail(const std::filesystem::path& file, int fra
     world.scene.detail = detail;
     Device device;
     FrameRunner runner(device, world);
-    runner.render(0, time);
+    Frame frame;
+    runner.render(frame, 0, time);
     DetailRow row;
     row.detail = detail;
     std::vector<double> ms;
     for (int k = 1; k <= frames; ++k)
-      ms.push_back(wall_milliseconds(device, [&] { runner.render(k, world.scene.time.at(k)); }));
+      ms.push_back(wall_milliseconds(device, [&] { runner.render(frame, k, world.scene.time.at(k)); }));
     row.ms = spread_of(ms);
     row.triangles = static_cast<double>(runner.drawn_triangles());
     row.device_mib = static_cast<double>(device.peak_buffer_bytes()) / (1024.0 * 1024.0);

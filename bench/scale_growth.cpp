@@ -67,11 +67,12 @@ GrowthPoint measure(const Scene& scene) {
   point.world_mib = resident_mib() - before;
   Device device;
   FrameRunner runner(device, world);
-  runner.render(0, 0);
+  Frame frame;
+  runner.render(frame, 0, 0);
   std::vector<double> ms;
   double all_ms = 0;
   for (int k = 1; k <= least_frames || (k <= most_frames && all_ms < enough_ms); ++k) {
-    ms.push_back(wall_milliseconds(device, [&] { runner.render(k, 0.1 * k); }));
+    ms.push_back(wall_milliseconds(device, [&] { runner.render(frame, k, 0.1 * k); }));
     all_ms += ms.back();
   }
   point.ms = spread_of(ms).median;

@@ -104,6 +104,7 @@ void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
   copies.add(planes.normal_y, frame.normal[1]);
   copies.add(planes.normal_z, frame.normal[2]);
   copies.add(planes.depth, frame.depth);
+  frame.height_above_root.clear();
   if (planes.height_above_root.size() > 0) copies.add(planes.height_above_root, frame.height_above_root);
   copies.run();
 }
@@ -111,7 +112,10 @@ void read_planes(const FragmentPlanes& planes, glm::dvec3 eye, Frame& frame) {
 void read_visibility(const VisibilityPasses& passes, std::size_t row_length, Frame& frame) {
   PlaneCopies copies(frame, row_length);
   copies.add(passes.visibility(), frame.visibility);
+  std::erase_if(frame.terms, [&](const auto& term) { return !passes.terms().contains(term.first); });
   for (const auto& [name, plane] : passes.terms()) copies.add(plane, frame.terms[name]);
+  for (Plane& channel : frame.ambient_light) channel.clear();
+  frame.sky_mean = glm::vec3(1);
   if (const EnvironmentLight* light = passes.environment()) {
     for (std::size_t channel = 0; channel < 3; ++channel)
       copies.add(light->planes()[channel], frame.ambient_light[channel]);

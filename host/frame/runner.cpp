@@ -171,6 +171,12 @@ void FrameRunner::choose(const Methods& methods) { impl_->choose(methods); }
 const Plan& FrameRunner::plan() const { return impl_->plan; }
 
 Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
+  Frame frame;
+  render(frame, index, time, pixel_offset);
+  return frame;
+}
+
+void FrameRunner::render(Frame& frame, int index, double time, glm::dvec2 pixel_offset) {
   const Scene& scene = impl_->world.scene;
   const auto pose_now = impl_->seen ? pose_without_plants : pose_at;
   impl_->pose = pose_now(impl_->world, time, scene.camera.position);
@@ -179,7 +185,6 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   impl_->draw();
   impl_->shade();
 
-  Frame frame;
   frame.index = index;
   frame.time = time;
   frame.origin = scene.origin;
@@ -194,7 +199,6 @@ Frame FrameRunner::render(int index, double time, glm::dvec2 pixel_offset) {
   frame.pass_ms = impl_->device.take_pass_times();
   read_planes(impl_->planes, impl_->pose.eye, frame);
   read_visibility(*impl_->visibility, impl_->planes.row_length, frame);
-  return frame;
 }
 
 void FrameRunner::shade_again() { impl_->shade(); }

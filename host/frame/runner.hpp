@@ -25,6 +25,8 @@ class FrameRunner {
   /// Poses, rasterises, resolves and shades one frame at world.scene.image size. `pixel_offset` in [-0.5, 0.5] shifts
   /// the sample inside every pixel (supersampling).
   Frame render(int index, double time, glm::dvec2 pixel_offset = glm::dvec2(0));
+  /// The same into a frame that is there, whose memory is used again: new pages for every frame cost a tenth of it.
+  void render(Frame& frame, int index, double time, glm::dvec2 pixel_offset = glm::dvec2(0));
   /// Resolves and shades the last rendered frame once more, with the methods chosen since; nothing is read back, so
   /// that the passes can be timed. The methods' guard bands must be that frame's.
   void shade_again();
