@@ -1,38 +1,19 @@
-// Posing, drawing and resolving on made-up geometry whose answers are known in closed form: straight limbs and blades,
-// and cards that face the camera, each hiding the three behind it.
+// Posing, drawing and resolving on made-up geometry whose answers are known in closed form: straight limbs, and cards
+// that face the camera, each hiding the three behind it.
 #include <array>
 #include <bit>
 #include <cmath>
 #include <memory>
 
 #include "bench/kernel_cases.hpp"
-#include "host/passes/pose_grass.hpp"
+#include "bench/posed_offset.hpp"
 #include "host/passes/pose_mesh.hpp"
 #include "host/passes/rasterise.hpp"
 #include "host/passes/resolve.hpp"
 #include "sim/prototype.hpp"
-#include "sim/random.hpp"
 
 namespace understory {
 namespace {
-
-constexpr std::uint64_t seed = 7;
-
-template <typename T>
-Buffer<T> uploaded(Device& device, const std::vector<T>& values, const char* what) {
-  return Buffer<T>(device, std::span<const T>(values), what);
-}
-
-/// Largest distance between posed vertices and where they should be; every 97th.
-double largest_offset(const PosedVertices& posed, const std::function<glm::dvec3(std::size_t)>& expected) {
-  const std::vector<std::array<float, 4>> points = posed.points.read();
-  double largest = 0;
-  for (std::size_t i = 0; i < points.size(); i += 97) {
-    const double offset = glm::distance(glm::dvec3(points[i][0], points[i][1], points[i][2]), expected(i));
-    largest = std::isfinite(offset) ? std::max(largest, offset) : HUGE_VAL;
-  }
-  return largest;
-}
 
 // Limbs of 64 blocks of vertices each, turned and moved, not bent.
 
@@ -103,81 +84,6 @@ KernelCase pose_mesh_case() {
               });
             };
             ready.items = static_cast<double>(vertices);
-            return ready;
-          }};
-}
-
-// Blades that look up the wind and are too stiff to follow it.
-
-struct Meadow {
-  Meadow(Device& device, std::size_t count) : pass(device), blades(count) {
-    std::vector<float> root_x, root_y, length, facing_x, facing_y;
-    for (std::size_t i = 0; i < count; ++i) {
-      Random random(seed, stream_of("blade"), i);
-      root_x.push_back(0.05f * static_cast<float>(i % 512));
-      root_y.push_back(0.05f * static_cast<float>(i / 512 % 512));
-      length.push_back(static_cast<float>(random.uniform(0.2, 0.5)));
-      const double turn = random.uniform(0, 6.28);
-      facing_x.push_back(static_cast<float>(std::cos(turn)));
-      facing_y.push_back(static_cast<float>(std::sin(turn)));
-    }
-    const std::vector<float> none(count, 0), width(count, half_width), phase(count, 1);
-    rest = {uploaded(device, root_x, "roots"),    uploaded(device, root_y, "roots"),
-            uploaded(device, none, "roots"),      uploaded(device, length, "lengths"),
-            uploaded(device, width, "widths"),    uploaded(device, none, "bend"),
-            uploaded(device, none, "bend"),       uploaded(device, facing_x, "facing"),
-            uploaded(device, facing_y, "facing"), uploaded(device, none, "flexibility"),
-            uploaded(device, phase, "phase")};
-    lengths = length;
-    facing = {facing_x, facing_y};
-    std::vector<std::array<float, 2>> pairs(1024, {0.1f, 0.05f});
-    series = uploaded(device, pairs, "series");
-    wind.direction_x = 1;
-    wind.slowness = 0.2f;
-    wind.series_rate = 8;
-    wind.mean_bend = 0.3f;
-    wind.flutter_amplitude = 0.1f;
-    wind.lateral_scale = 5;
-    wind.lateral_delay = 0.5f;
-    wind.series_count = static_cast<record_uint>(pairs.size());
-    posed.points = Buffer<std::array<float, 4>>(device, vertices_per_blade * count, "posed");
-  }
-
-  /// Vertex k of blade l of a group of 256 is 7 * 256 * group + 256 k + l.
-  glm::dvec3 vertex(std::size_t i) const {
-    constexpr double side[] = {-1, 1, -0.85, 0.85, -0.5, 0.5, 0}, share[] = {0, 0, 0.4, 0.4, 0.75, 0.75, 1};
-    const std::size_t group = i / (vertices_per_blade * blades_per_group),
-                      k = i / blades_per_group % vertices_per_blade;
-    const std::size_t blade = group * blades_per_group + i % blades_per_group;
-    const double away = side[k] * double(half_width);
-    return {0.05 * double(blade % 512) + away * double(facing[0][blade]),
-            0.05 * double(blade / 512 % 512) + away * double(facing[1][blade]), share[k] * double(lengths[blade])};
-  }
-
-  static constexpr float half_width = 0.004f;
-  PoseGrassPass pass;
-  std::size_t blades;
-  RestBlades rest;
-  std::vector<float> lengths;
-  std::array<std::vector<float>, 2> facing;
-  GrassWind wind{};
-  SwaySeries series;
-  PosedVertices posed;
-};
-
-KernelCase pose_grass_case() {
-  return {"pose-grass", 1e-4, [](Device& device, BenchFragments& all) {
-            const std::size_t groups = std::max<std::size_t>(all.planes.fragments / 4 / blades_per_group, 1);
-            const auto meadow = std::make_shared<Meadow>(device, groups * blades_per_group);
-            ReadyKernel ready;
-            ready.run = [meadow] {
-              meadow->pass.run(meadow->rest, meadow->wind, meadow->series, 0,
-                               static_cast<std::uint32_t>(meadow->blades), 0, meadow->posed);
-            };
-            ready.error = [meadow] {
-              return largest_offset(meadow->posed, [&](std::size_t i) { return meadow->vertex(i); });
-            };
-            ready.items = static_cast<double>(meadow->blades);
             return ready;
           }};
 }
@@ -354,7 +260,7 @@ KernelCase resolve_case() {
 }  // namespace
 
 std::vector<KernelCase> geometry_cases() {
-  return {pose_mesh_case(), pose_grass_case(), rasterise_case(false), rasterise_case(true), resolve_case()};
+  return {pose_mesh_case(), rasterise_case(false), rasterise_case(true), resolve_case()};
 }
 
 }  // namespace understory

@@ -297,7 +297,7 @@ std::vector<KernelCase> kernel_cases() {
                                    combine_case(),
                                    environment_case(),
                                    farthest_depth_case()};
-  for (auto* more : {&geometry_cases, &image_cases})
+  for (auto* more : {&geometry_cases, &foliage_cases, &image_cases})
     for (KernelCase& one : more()) cases.push_back(std::move(one));
   return cases;
 }

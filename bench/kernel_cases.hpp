@@ -43,6 +43,8 @@ KernelCase grass_transmittance_case();
 KernelCase grid_case(const std::string& method);
 /// Posing, drawing and resolving of triangles.
 std::vector<KernelCase> geometry_cases();
+/// Posing and drawing of blades and far pieces.
+std::vector<KernelCase> foliage_cases();
 /// Obscurance and what else reads an image's neighbourhood.
 std::vector<KernelCase> image_cases();
 

@@ -6,7 +6,8 @@
 
 namespace understory {
 
-/// Per item, as the bench's own data (bench/fragments.hpp, bench/geometry_cases.cpp, bench/image_cases.cpp) ask for it.
+/// Per item, as the bench's own data (bench/fragments.hpp, bench/geometry_cases.cpp, bench/foliage_cases.cpp,
+/// bench/image_cases.cpp) ask for it.
 struct KernelCost {
   std::string_view kernel;  // as in the bench's rows, without kernel/
   std::string_view item;    // fragment, vertex, blade, triangle

@@ -66,8 +66,8 @@ void require_sound(const Frame& frame, const JudgedView& view) {
 
 /// The passes of a frame before the resolve.
 bool is_drawing(const std::string& pass) {
-  return pass.starts_with("pose_") || pass.starts_with("rasterise") || pass == "clear_visible" ||
-         pass == "farthest_depth";
+  return pass.starts_with("pose_") || pass.starts_with("draw_") || pass.starts_with("rasterise") ||
+         pass == "clear_visible" || pass == "farthest_depth";
 }
 
 }  // namespace

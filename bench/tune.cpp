@@ -59,8 +59,9 @@ std::vector<TunedPass> tune_passes(const BenchOptions& options) {
   Device device(options.device);
   BenchFragments fragments(device, options.fragments.front());
   // Their launch shapes follow from the geometry, or from tiles alone.
-  const std::set<std::string> fixed = {"pose-mesh", "pose-grass",    "rasterise-mesh",     "rasterise-grass",
-                                       "resolve",   "depth-moments", "normals-from-depth", "obscurance-half"};
+  const std::set<std::string> fixed = {"pose-mesh",          "pose-grass",      "draw-blades", "draw-far",
+                                       "rasterise-mesh",     "rasterise-grass", "resolve",     "depth-moments",
+                                       "normals-from-depth", "obscurance-half"};
   std::vector<TunedPass> passes;
   for (const KernelCase& tested : kernel_cases()) {
     const std::string name = "kernel/" + tested.kernel;

@@ -3,7 +3,7 @@
 // With -DTHINNED the leaves of each block are first enlarged about their middles.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/fetch_ahead.h"
-#include "kernels/shared/pose_limb.h"
+#include "kernels/shared/posed_lanes.h"
 #include "kernels/shared/posed_vertices.h"
 #include "kernels/shared/records.h"
 
@@ -24,13 +24,9 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
   const size_t rest = (size_t)block.rest_block * per_block + i % per_block;
   global const LimbPose* limb = limbs + block.limb_pose;
 
+  const RestFlutter flutter = {flutter_x, flutter_y, flutter_z, flutter_phase};
   fetch_planes(rest_x, rest_y, rest_z, rest);
-  if (i % 4 == 0) {  // a line of bytes holds four work-items
-    fetch_bytes(flutter_x, rest);
-    fetch_bytes(flutter_y, rest);
-    fetch_bytes(flutter_z, rest);
-    fetch_bytes(flutter_phase, rest);
-  }
+  if (i % 4 == 0) fetch_flutter(&flutter, rest);  // a line of bytes holds four work-items
   real px = LOAD(rest_x, rest), py = LOAD(rest_y, rest), pz = LOAD(rest_z, rest);
 #ifdef THINNED
   const float scale = block_scale[i / per_block];
@@ -41,14 +37,6 @@ kernel void pose_mesh(global const float* rest_x, global const float* rest_y, gl
     pz = fma((real)(scale), pz - mz, mz);
   }
 #endif
-  const real turns =
-      fma(LOAD_BYTE(flutter_phase, rest), REAL(0.00390625), (real)(limb->flutter_phase * 0.15915494f));
-  const real swing = (real)(limb->flutter_amplitude) * sine_of_turns(turns);
-  px = fma(LOAD_BYTE(flutter_x, rest), swing, px);
-  py = fma(LOAD_BYTE(flutter_y, rest), swing, py);
-  pz = fma(LOAD_BYTE(flutter_z, rest), swing, pz);
-
-  pose_on_limb(limb->to_limb, limb->curvature, limb->to_scene, &px, &py, &pz);
-  const PosedLanes lanes = {px, py, pz};
+  const PosedLanes lanes = posed_lanes(limb, &flutter, rest, px, py, pz);
   store_records(posed_records(lanes), posed, i * W);
 }

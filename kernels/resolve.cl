@@ -75,6 +75,12 @@ kernel void resolve(global VisibleTriangle* pixels, global const TriangleChunk* 
     fetch_ahead(posed + corners.a);
     fetch_ahead(posed + corners.b);
     fetch_ahead(posed + corners.c);
+#ifdef GRASS_HEIGHT
+    if (next / CHUNK < mesh_chunks) continue;
+    const uint blade = chunks[next / CHUNK].first_index + next % CHUNK;
+    fetch_ahead(blade_root_z + blade);
+    fetch_ahead(blade_length + blade);
+#endif
   }
   for (uint k = 0, x = begin % (uint)camera.width, y = begin / (uint)camera.width; k < W; ++k) {
     const int seen = triangles[k] != NO_TRIANGLE;

@@ -1,6 +1,7 @@
 #include "host/frame/detail_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -17,12 +18,19 @@ namespace {
 constexpr std::uint32_t leaf_blocks = 2, unit_vertices = leaf_blocks * vertex_block;  // of whole leaves
 constexpr std::size_t most_of_a_leaf = 4;   // triangles: one of more would be too unlike its leaf
 constexpr double widest_twig = 0.03;        // m at scale 1: thicker wood keeps its shape
-constexpr std::size_t least_triangles = 9;  // a cone has three
+constexpr std::size_t least_triangles = 9;  // of a twig that is worth it
 
 /// Consecutive triangles of a run that are one leaf, one twig, or any other connected surface.
 struct Piece {
   std::vector<std::uint32_t> triangles;  // in Prototype::triangles / 3
   std::vector<std::uint32_t> vertices;   // in order of first use
+};
+
+/// The one triangle that stands for a leaf or a twig far away.
+struct FarPiece {
+  std::array<std::uint32_t, 3> vertices;  // of the prototype, as which its corners move
+  std::array<glm::vec3, 3> places;        // at rest, m
+  std::uint32_t source = no_source;
 };
 
 std::vector<glm::vec3> rest_positions(const VertexBlocks& v) {
@@ -101,8 +109,13 @@ class PrototypeLayout {
       const bool simple = std::all_of(leaves.begin(), leaves.end(),
                                       [](const Piece& leaf) { return leaf.triangles.size() <= most_of_a_leaf; });
       if (thinned_ && simple) {
-        sections_[whole].coarse = static_cast<std::int32_t>(sections_.size());
-        add_single_triangles(run, limb, ordered, sections_[whole].size);
+        sections_[whole].far = static_cast<std::int32_t>(sections_.size());
+        DetailSection far = begin_section(run, limb);
+        far.thins = true;
+        far.size = sections_[whole].size;
+        std::vector<FarPiece> triangles;
+        for (const Piece* leaf : ordered) triangles.push_back(far_leaf(run, *leaf));
+        add_far_pieces(far, triangles);
       }
     }
     if (!others.empty()) add_section(run, limb, others);
@@ -111,6 +124,7 @@ class PrototypeLayout {
   /// The number of its section.
   std::size_t add_whole_leaves(std::uint32_t run, std::uint32_t limb, const std::vector<const Piece*>& leaves) {
     DetailSection section = begin_section(run, limb);
+    section.thins = true;
     section.unit_blocks = leaf_blocks;
     double area = 0;
     for (const Piece* leaf : leaves) {
@@ -130,34 +144,39 @@ class PrototypeLayout {
     return sections_.size() - 1;
   }
 
-  /// One triangle for each leaf, with the area of the whole leaf: a quarter of the vertices and half of the triangles
-  /// are saved. Large triangles of a leaf are taken more often, so that as much area faces every way as before.
-  void add_single_triangles(std::uint32_t run, std::uint32_t limb, const std::vector<const Piece*>& leaves,
-                            float leaf_size) {
-    DetailSection section = begin_section(run, limb);
-    section.is_coarse = true;
-    section.unit_blocks = 3;  // vertex k of triangle l at 16 k + l
-    section.size = leaf_size;
-    for (std::size_t first = 0; first < leaves.size(); first += unit_triangles) {
+  /// A triangle for a leaf, with the area of the whole leaf: a quarter of the vertices and half of the triangles are
+  /// saved. Large triangles of a leaf are taken more often, so that as much area faces every way as before.
+  FarPiece far_leaf(std::uint32_t run, const Piece& leaf) const {
+    const std::uint32_t triangle = triangle_by_area(leaf);
+    const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{triangle}];
+    const glm::vec3 middle = (positions_[corner[0]] + positions_[corner[1]] + positions_[corner[2]]) / 3.0f;
+    const auto growth = static_cast<float>(std::sqrt(area_of(leaf) / area_of(triangle)));
+    FarPiece far;
+    for (std::size_t k = 0; k < 3; ++k) {
+      far.vertices[k] = corner[k];
+      far.places[k] = middle + growth * (positions_[corner[k]] - middle);
+    }
+    far.source = source_of(run, triangle);
+    return far;
+  }
+
+  /// 16 pieces after 16, in units whose corners a, b and c stand in a block each.
+  void add_far_pieces(DetailSection section, const std::vector<FarPiece>& pieces) {
+    section.is_far = true;
+    section.unit_blocks = 3;
+    for (std::size_t first = 0; first < pieces.size(); first += unit_triangles) {
       const std::uint32_t vertex = next_vertex(section);
-      std::vector<std::uint32_t> chosen;
-      for (std::size_t l = 0; l < unit_triangles; ++l)
-        if (first + l < leaves.size()) chosen.push_back(triangle_by_area(*leaves[first + l]));
       for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = 0; l < unit_triangles; ++l) {
-          const std::size_t leaf = std::min(l, chosen.size() - 1);
-          const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{chosen[leaf]}];
-          const glm::vec3 middle = (positions_[corner[0]] + positions_[corner[1]] + positions_[corner[2]]) / 3.0f;
-          const double growth = std::sqrt(area_of(*leaves[first + leaf]) / area_of(chosen[leaf]));
-          const glm::vec3 place = middle + static_cast<float>(growth) * (positions_[corner[k]] - middle);
-          add_vertex(corner[k], place, middle);
+        for (std::size_t l = first; l < first + unit_triangles; ++l) {
+          const FarPiece& piece = pieces[std::min(l, pieces.size() - 1)];
+          const glm::vec3 middle = (piece.places[0] + piece.places[1] + piece.places[2]) / 3.0f;
+          const glm::vec3 place = l < pieces.size() ? piece.places[k] : middle;  // the unit's other triangles: no area
+          add_vertex(piece.vertices[k], place, middle);
           section.piece_radius = std::max(section.piece_radius, glm::distance(place, middle));
         }
-      for (std::uint32_t l = 0; l < unit_triangles; ++l) {
-        const bool there = l < chosen.size();
-        add_triangle(vertex + l, vertex + (there ? unit_triangles : 0) + l,
-                     vertex + (there ? 2 * unit_triangles : 0) + l, there ? source_of(run, chosen[l]) : no_source);
-      }
+      for (std::uint32_t l = 0; l < unit_triangles; ++l)
+        add_triangle(vertex + l, vertex + unit_triangles + l, vertex + 2 * unit_triangles + l,
+                     first + l < pieces.size() ? pieces[first + l].source : no_source);
     }
     end_section(section);
   }
@@ -180,7 +199,8 @@ class PrototypeLayout {
       }
       return all;
     }();
-    std::vector<Piece> boughs, twigs, cones;
+    std::vector<Piece> boughs, twigs;
+    std::vector<FarPiece> far_twigs;
     double diameters = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const StemPiece stem = measure_stem(positions_, connected, i);
@@ -191,51 +211,44 @@ class PrototypeLayout {
         continue;
       }
       diameters += diameter;
-      cones.push_back(cone_of(pieces[i], stem));
+      far_twigs.push_back(far_twig(run, pieces[i], stem));
       twigs.push_back(std::move(pieces[i]));
     }
     if (!boughs.empty()) add_section(run, limb, boughs);
     if (twigs.empty()) return;
     add_section(run, limb, twigs);
     if (!thinned_) return;
-    const std::size_t full = sections_.size() - 1;
-    sections_[full].size = static_cast<float>(diameters / static_cast<double>(twigs.size()));
-    sections_[full].coarse = static_cast<std::int32_t>(sections_.size());
-    add_cones(run, limb, cones);
+    DetailSection& full = sections_.back();
+    full.size = static_cast<float>(diameters / static_cast<double>(twigs.size()));
+    full.far = static_cast<std::int32_t>(sections_.size());
+    add_far_pieces(begin_section(run, limb), far_twigs);
   }
 
-  /// Three corners at the thick end of a twig, spread about it, and the vertex farthest from them.
-  Piece cone_of(const Piece& twig, const StemPiece& stem) const {
+  /// A triangle for a twig, from two places about its thick end to the vertex farthest from them, so wide that it has
+  /// half of the twig's surface. A flat face turned at random about the twig shows as much of itself, and turned the
+  /// same ways, as what is seen of the twig: the mean over all directions of a convex body's projection is a quarter of
+  /// its surface (Cauchy), that of a flat piece half of its area.
+  FarPiece far_twig(std::uint32_t run, const Piece& twig, const StemPiece& stem) const {
     const int thick = stem.ends[0].radius >= stem.ends[1].radius ? 0 : 1;
     const glm::vec3 foot = stem.ends[thick].middle, tip = stem.ends[1 - thick].middle;
-    const auto along = [&](std::uint32_t v) { return glm::distance(positions_[v], foot); };
     const float reach = 1.5f * stem.ends[thick].radius;
     std::vector<std::uint32_t> ring;
     for (const std::uint32_t v : twig.vertices)
-      if (along(v) <= reach) ring.push_back(v);
-    Piece cone;
-    const std::uint32_t last = *std::min_element(twig.vertices.begin(), twig.vertices.end(), [&](auto a, auto b) {
-      return glm::distance(positions_[a], tip) < glm::distance(positions_[b], tip);
+      if (glm::distance(positions_[v], foot) <= reach) ring.push_back(v);
+    if (ring.size() < 3) ring.assign(twig.vertices.begin(), twig.vertices.begin() + 3);
+    const std::size_t chosen = mix_bits(~std::uint64_t{twig.triangles.front()}) % ring.size();
+    const std::uint32_t a = ring[chosen], b = ring[(chosen + ring.size() / 3) % ring.size()];
+    const std::uint32_t last = *std::min_element(twig.vertices.begin(), twig.vertices.end(), [&](auto p, auto q) {
+      return glm::distance(positions_[p], tip) < glm::distance(positions_[q], tip);
     });
-    const std::size_t n = ring.size();
-    for (std::size_t k = 0; k < 3 && n >= 3; ++k) cone.vertices.push_back(ring[k * n / 3]);
-    if (n < 3) cone.vertices = {twig.vertices[0], twig.vertices[1], twig.vertices[2]};
-    cone.vertices.push_back(last);
-    cone.triangles = {twig.triangles.front()};
-    return cone;
-  }
-
-  void add_cones(std::uint32_t run, std::uint32_t limb, const std::vector<Piece>& cones) {
-    DetailSection section = begin_section(run, limb);
-    section.is_coarse = true;
-    for (const Piece& cone : cones) {
-      const std::uint32_t first = next_vertex(section);
-      for (const std::uint32_t v : cone.vertices) add_vertex(v, positions_[v], positions_[v]);
-      for (std::uint32_t k = 0; k < 3; ++k)
-        add_triangle(first + k, first + (k + 1) % 3, first + 3, source_of(run, cone.triangles.front()));
-    }
-    fill_up(section);
-    end_section(section);
+    const double face = area_of(a, b, last);
+    const auto growth = static_cast<float>(face > 0 ? 0.5 * area_of(twig) / face : 1.0);
+    const glm::vec3 base = 0.5f * (positions_[a] + positions_[b]);
+    FarPiece far;
+    far.vertices = {a, b, last};
+    far.places = {base + growth * (positions_[a] - base), base + growth * (positions_[b] - base), positions_[last]};
+    far.source = source_of(run, twig.triangles.front());
+    return far;
   }
 
   void add_section(std::uint32_t run, std::uint32_t limb, const std::vector<Piece>& pieces) {
@@ -293,10 +306,13 @@ class PrototypeLayout {
     return run_starts_[run] + triangle - prototype_.runs[run].first;
   }
 
+  double area_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const glm::dvec3 from(positions_[a]), u = glm::dvec3(positions_[b]) - from, v = glm::dvec3(positions_[c]) - from;
+    return 0.5 * glm::length(glm::cross(u, v));
+  }
   double area_of(std::uint32_t triangle) const {
     const std::uint32_t* corner = &prototype_.triangles[3 * std::size_t{triangle}];
-    const glm::dvec3 a(positions_[corner[0]]), b(positions_[corner[1]]), c(positions_[corner[2]]);
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
+    return area_of(corner[0], corner[1], corner[2]);
   }
 
   double area_of(const Piece& piece) const {

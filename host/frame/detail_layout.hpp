@@ -1,6 +1,5 @@
 // Prototypes in an order that lets a frame draw less of them: limb by limb, the leaves of a limb in a fixed random
-// order and in units that can be left out, beside the single triangles that stand for them far away, as cones do for
-// thin twigs.
+// order and in units that can be left out, beside the single triangles that stand for them and for thin twigs far away.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -21,12 +20,12 @@ struct DetailSection {
   std::uint32_t first_triangle = 0, triangles = 0;  // corners count from the section's first vertex
   glm::vec3 centre{0};                              // of its bounding sphere at rest, flutter included, m
   float radius = 0;
-  std::uint32_t unit_blocks = 0;  // leaves: blocks of 16 vertices of a unit; 0: always drawn whole
-  float piece_radius = 0;         // leaves: largest distance of a vertex from the middle of its leaf, m
-  float size = 0;                 // leaves: root of their mean area; twigs: mean diameter, m; 0: has no `coarse`
-  std::int32_t coarse = -1;       // the section that stands for this one far away, in the prototype's list
-  bool is_coarse = false;         // drawn only in place of another
-  bool thins() const { return unit_blocks > 0; }
+  bool thins = false;             // leaves that go with distance, unit by unit, while the others grow
+  bool is_far = false;            // drawn only in place of another: pieces of one triangle each
+  std::uint32_t unit_blocks = 0;  // blocks of 16 vertices of a unit, where it has units; far: corners a, b and c
+  float piece_radius = 0;         // largest distance of a vertex from the middle of its leaf, m
+  float size = 0;                 // leaves: root of their mean area; twigs: mean diameter, m; 0: has no `far`
+  std::int32_t far = -1;          // the section that stands for this one far away, in the prototype's list
 };
 
 /// All prototypes, one after another. Planes have one element per vertex, 16 per block.

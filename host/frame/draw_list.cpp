@@ -23,8 +23,8 @@ double along(const float (&axis)[4], const glm::dvec3& p) {
 }
 
 /// Pairs of vertices along a blade: bent by a radian, its middle lies an eighth of its length beside the chord, which
-/// few pairs show where that is a pixel or two.
-std::uint32_t strip_pairs(double length_in_pixels) { return length_in_pixels > 24 ? 3 : length_in_pixels > 3 ? 2 : 1; }
+/// few pairs show where that is a pixel or two, and one where it is half of one.
+std::uint32_t strip_pairs(double length_in_pixels) { return length_in_pixels > 24 ? 3 : length_in_pixels > 5 ? 2 : 1; }
 
 BladeGroup measure_group(const GrassBlades& field, std::size_t first, std::size_t end, std::uint32_t first_blade) {
   BladeGroup group;
@@ -45,6 +45,19 @@ BladeGroup measure_group(const GrassBlades& field, std::size_t first, std::size_
   group.width = static_cast<float>(width / group.blades);
   group.length = static_cast<float>(length / group.blades);
   return group;
+}
+
+void join(ListedSections& to, ListedSections& from, std::uint32_t first_limb) {
+  const auto first_vertex = static_cast<std::uint32_t>(to.blocks.size() * vertex_block);
+  for (PosedBlock& block : from.blocks) block.limb_pose += first_limb;
+  for (TriangleChunk& chunk : from.chunks) chunk.first_vertex += first_vertex;
+  to.blocks.insert(to.blocks.end(), from.blocks.begin(), from.blocks.end());
+  to.block_scale.insert(to.block_scale.end(), from.block_scale.begin(), from.block_scale.end());
+  to.chunks.insert(to.chunks.end(), from.chunks.begin(), from.chunks.end());
+}
+
+std::uint32_t first_triangle_after(const ListedSections& sections) {
+  return static_cast<std::uint32_t>(sections.chunks.size()) * triangles_per_chunk;
 }
 
 }  // namespace
@@ -86,6 +99,14 @@ bool may_hide(const Prototype& prototype) {
 bool has_hiders(const World& world) {
   return std::any_of(world.instances.begin(), world.instances.end(),
                      [&](const Instance& instance) { return may_hide(world.prototypes[instance.prototype]); });
+}
+
+bool has_far_pieces(const World& world) {
+  return std::any_of(world.prototypes.begin(), world.prototypes.end(), [](const Prototype& prototype) {
+    return std::any_of(prototype.runs.begin(), prototype.runs.end(), [](const TriangleRun& run) {
+      return run.surface == SurfaceClass::leaf || run.surface == SurfaceClass::wood;
+    });
+  });
 }
 
 glm::vec4 posed_sphere(const LimbPose& limb, const DetailSection& section, double scale) {
@@ -171,7 +192,7 @@ void DrawLister::list_instance(std::size_t i, Part& part) const {
   const std::vector<DetailSection>& sections = layout_.sections[instance.prototype];
   std::vector<float> areas;
   for (const DetailSection& candidate : sections) {
-    if (candidate.is_coarse) continue;
+    if (candidate.is_far) continue;
     const LimbPose& limb = part.limbs[candidate.limb];
     const glm::vec4 sphere = posed_sphere(limb, candidate, instance.scale);
     const glm::dvec3 centre(sphere);
@@ -180,9 +201,9 @@ void DrawLister::list_instance(std::size_t i, Part& part) const {
     const DetailSection* section = &candidate;
     double grown = 0;  // how far enlarged leaves reach out of the sphere
     areas.clear();
-    if (thinned_ && candidate.coarse >= 0 && pixels < (candidate.thins() ? leaf_pixels : twig_pixels))
-      section = &sections[static_cast<std::size_t>(candidate.coarse)];
-    if (thinned_ && section->thins()) {
+    if (thinned_ && candidate.far >= 0 && pixels < (candidate.thins ? leaf_pixels : twig_pixels))
+      section = &sections[static_cast<std::size_t>(candidate.far)];
+    if (thinned_ && section->thins) {
       thin(section->triangles / unit_triangles, pixels * pixels / (leaf_pixels * leaf_pixels), areas);
       grown = (std::sqrt(double(areas.front())) - 1) * double(section->piece_radius) * instance.scale;
     }
@@ -193,17 +214,23 @@ void DrawLister::list_instance(std::size_t i, Part& part) const {
 
 void DrawLister::list_section(const DetailSection& section, const Instance& instance, const std::vector<float>& areas,
                               Part& part) const {
-  const auto first_vertex = static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
-  const auto units = static_cast<std::uint32_t>(areas.size());
+  ListedSections& to = section.is_far ? part.far : part.posed;
+  const auto first_block = static_cast<std::uint32_t>(to.blocks.size());
+  const std::uint32_t triangles =
+      areas.empty() ? section.triangles : static_cast<std::uint32_t>(areas.size()) * unit_triangles;
+  const std::uint32_t units = triangles / unit_triangles;
   const std::uint32_t blocks = areas.empty() ? section.blocks : units * section.unit_blocks;
-  const std::uint32_t triangles = areas.empty() ? section.triangles : units * unit_triangles;
+  for (std::uint32_t unit = 0; section.is_far && unit < units; ++unit)
+    part.far_units.push_back(
+        {first_block + unit * section.unit_blocks,
+         static_cast<std::uint32_t>(to.chunks.size()) * triangles_per_chunk + unit * unit_triangles});
   for (std::uint32_t block = 0; block < blocks; ++block)
-    part.blocks.push_back({section.first_block + block, section.limb});
+    to.blocks.push_back({section.first_block + block, section.limb});
   for (std::uint32_t block = 0; thinned_ && block < blocks; ++block)
-    part.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / section.unit_blocks]));
+    to.block_scale.push_back(areas.empty() ? 1.0f : std::sqrt(areas[block / section.unit_blocks]));
   for (std::uint32_t done = 0; done < triangles; done += triangles_per_chunk)
-    part.chunks.push_back({first_vertex, section.first_triangle + done, std::min(triangles_per_chunk, triangles - done),
-                           instance.run_owner[section.run]});
+    to.chunks.push_back({first_block * vertex_block, section.first_triangle + done,
+                         std::min(triangles_per_chunk, triangles - done), instance.run_owner[section.run]});
   part.triangles += triangles;
 }
 
@@ -218,20 +245,30 @@ void DrawLister::list_wave() {
 }
 
 void DrawLister::append(Part& part) {
-  if (part.chunks.empty()) {  // nothing of it is drawn
-    part = Part();
-    return;
+  if (part.triangles > 0) {
+    const auto limb = static_cast<std::uint32_t>(list_.limbs.size());
+    list_.limbs.insert(list_.limbs.end(), part.limbs.begin(), part.limbs.end());
+    for (const FarUnit& unit : part.far_units)
+      far_units_.push_back({unit.first_block + static_cast<std::uint32_t>(far_.blocks.size()),
+                            unit.first_triangle + first_triangle_after(far_)});
+    list_.vertices += static_cast<std::uint32_t>(part.vertices());
+    list_.triangles += part.triangles;
+    join(list_.mesh, part.posed, limb);
+    join(far_, part.far, limb);
   }
-  const auto limb = static_cast<std::uint32_t>(list_.limbs.size());
-  for (PosedBlock& block : part.blocks) block.limb_pose += limb;
-  for (TriangleChunk& chunk : part.chunks) chunk.first_vertex += list_.vertices;
-  list_.limbs.insert(list_.limbs.end(), part.limbs.begin(), part.limbs.end());
-  list_.blocks.insert(list_.blocks.end(), part.blocks.begin(), part.blocks.end());
-  list_.block_scale.insert(list_.block_scale.end(), part.block_scale.begin(), part.block_scale.end());
-  list_.chunks.insert(list_.chunks.end(), part.chunks.begin(), part.chunks.end());
-  list_.vertices += static_cast<std::uint32_t>(part.blocks.size() * vertex_block);
-  list_.triangles += part.triangles;
   part = Part();
+}
+
+void DrawLister::append_far() {
+  list_.posed_blocks = list_.mesh.blocks.size();
+  list_.posed_chunks = static_cast<std::uint32_t>(list_.mesh.chunks.size());
+  for (const FarUnit& unit : far_units_)
+    list_.far_units.push_back({unit.first_block + static_cast<std::uint32_t>(list_.posed_blocks),
+                               unit.first_triangle + first_triangle_after(list_.mesh)});
+  join(list_.mesh, far_, 0);
+  far_ = {};
+  far_units_.clear();
+  list_.mesh_chunks = static_cast<std::uint32_t>(list_.mesh.chunks.size());
 }
 
 void DrawLister::list_group(std::size_t field, const BladeGroup& group) {
@@ -242,11 +279,10 @@ void DrawLister::list_group(std::size_t field, const BladeGroup& group) {
   thin(all, thinned_ ? double(group.width) * scale / blade_pixels : 2.0, widths_);
   const std::uint32_t pairs = thinned_ ? strip_pairs(double(group.length) * scale) : 3;
   for (std::uint32_t unit = 0; unit < widths_.size(); ++unit)
-    list_.blade_units.push_back(
-        {group.first_blade + unit * blades_per_unit, list_.vertices + unit * blades_per_unit, widths_[unit], pairs});
+    list_.blade_units.push_back({first_triangle_after(list_.mesh) + unit * blades_per_unit, widths_[unit], pairs, 0});
   const auto count = std::min(group.blades, static_cast<std::uint32_t>(widths_.size()) * blades_per_unit);
   for (std::uint32_t k = 0; k < 2 * pairs - 1; ++k)
-    list_.chunks.push_back(
+    list_.mesh.chunks.push_back(
         {list_.vertices + k * blades_per_group, group.first_blade, count, blades_.fields[field].owner});
   list_.vertices += (2 * pairs + 1) * blades_per_group;
   list_.triangles += std::uint64_t{2 * pairs - 1} * count;
@@ -257,7 +293,7 @@ void DrawLister::list_grass() {
     list_.first_unit.push_back(static_cast<std::uint32_t>(list_.blade_units.size()));
     if (field != next_field_) continue;
     const std::vector<BladeGroup>& groups = blades_.groups[field];
-    while (next_group_ < groups.size() && (list_.vertices < most_vertices_ || list_.chunks.empty()))
+    while (next_group_ < groups.size() && (list_.vertices < most_vertices_ || list_.mesh.chunks.empty()))
       list_group(field, groups[groups_[field][next_group_++].index]);
     if (next_group_ < groups.size()) continue;  // the batch is full
     ++next_field_;
@@ -268,9 +304,10 @@ void DrawLister::list_grass() {
 
 void DrawLister::clear_list() {
   list_.limbs.clear();
-  list_.blocks.clear();
-  list_.block_scale.clear();
-  list_.chunks.clear();
+  list_.mesh.blocks.clear();
+  list_.mesh.block_scale.clear();
+  list_.mesh.chunks.clear();
+  list_.far_units.clear();
   list_.blade_units.clear();
   list_.first_unit.clear();
   list_.vertices = 0;
@@ -282,10 +319,10 @@ const DrawList& DrawLister::hiders() {
   for (; next_instance_ < hiders_; ++next_instance_) {
     Part part;
     list_instance(instances_[next_instance_].index, part);
-    if (list_.vertices > 0 && list_.vertices + part.blocks.size() * vertex_block > most_vertices_) break;
+    if (list_.vertices > 0 && list_.vertices + part.vertices() > most_vertices_) break;
     append(part);
   }
-  list_.mesh_chunks = static_cast<std::uint32_t>(list_.chunks.size());
+  append_far();  // solid bodies have none
   list_.first_unit.assign(blades_.fields.size() + 1, 0);
   has_begun_ = true;
   return list_;
@@ -299,12 +336,11 @@ const DrawList& DrawLister::next() {
   while (!full && (next_part_ < waiting_.size() || next_instance_ < world_.instances.size())) {
     if (next_part_ == waiting_.size()) list_wave();
     while (!full && next_part_ < waiting_.size()) {
-      const std::size_t vertices = waiting_[next_part_].blocks.size() * vertex_block;
-      full = list_.vertices > 0 && list_.vertices + vertices > most_vertices_;
+      full = list_.vertices > 0 && list_.vertices + waiting_[next_part_].vertices() > most_vertices_;
       if (!full) append(waiting_[next_part_++]);
     }
   }
-  list_.mesh_chunks = static_cast<std::uint32_t>(list_.chunks.size());
+  append_far();
   if (full)
     list_.first_unit.assign(blades_.fields.size() + 1, 0);
   else

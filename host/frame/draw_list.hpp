@@ -27,13 +27,22 @@ struct BladeLayout {
 };
 BladeLayout lay_out_blades(const World& world);
 
-/// One batch.
+/// Sections of meshes, one after another. Vertices count from the first block.
+struct ListedSections {
+  std::vector<PosedBlock> blocks;  // in the order of the posed vertices
+  std::vector<float> block_scale;  // of each block's leaves about their middles; empty unless thinned
+  std::vector<TriangleChunk> chunks;
+};
+
+/// One batch. First what is posed and then drawn, then far pieces, then grass, both of which are drawn as they are
+/// posed.
 struct DrawList {
-  std::vector<LimbPose> limbs;        // of its instances
-  std::vector<PosedBlock> blocks;     // of meshes, in the order of the posed vertices
-  std::vector<float> block_scale;     // of each block's leaves about their middles; empty unless thinned
-  std::vector<TriangleChunk> chunks;  // meshes first
-  std::uint32_t mesh_chunks = 0;
+  std::vector<LimbPose> limbs;   // of its instances
+  ListedSections mesh;           // with far pieces; chunks of grass after them
+  std::size_t posed_blocks = 0;  // before those of far pieces
+  std::uint32_t posed_chunks = 0;
+  std::vector<FarUnit> far_units;
+  std::uint32_t mesh_chunks = 0;          // with those of far pieces
   std::vector<BladeUnit> blade_units;     // field after field
   std::vector<std::uint32_t> first_unit;  // per field, and the number of all
   std::uint32_t vertices = 0;             // posed, of meshes and grass
@@ -62,10 +71,10 @@ class DrawLister {
   /// What one instance adds; vertices and limbs count from its own.
   struct Part {
     std::vector<LimbPose> limbs;
-    std::vector<PosedBlock> blocks;
-    std::vector<float> block_scale;
-    std::vector<TriangleChunk> chunks;
+    ListedSections posed, far;
+    std::vector<FarUnit> far_units;  // first_triangle counts from the first chunk of `far`
     std::uint64_t triangles = 0;
+    std::size_t vertices() const { return (posed.blocks.size() + far.blocks.size()) * vertex_block; }
   };
   /// What is nearer hides what comes later, which then costs less; what may hide it whole comes first of all.
   void order_nearest_first();
@@ -77,6 +86,8 @@ class DrawLister {
                     Part& part) const;
   void list_wave();
   void append(Part& part);
+  /// Puts the far pieces of all parts behind what is posed.
+  void append_far();
   void list_group(std::size_t field, const BladeGroup& group);
   void list_grass();
 
@@ -100,6 +111,8 @@ class DrawLister {
   std::vector<std::vector<Place>> groups_;  // per field, nearest first
   std::vector<Part> waiting_;               // listed, and not yet part of a batch, from next_part_ on
   std::size_t next_part_ = 0;
+  ListedSections far_;  // of the parts of this batch
+  std::vector<FarUnit> far_units_;
   std::vector<float> widths_;
   DrawList list_;
 };
@@ -108,6 +121,8 @@ class DrawLister {
 bool may_hide(const Prototype& prototype);
 /// Whether anything in the world may.
 bool has_hiders(const World& world);
+/// Whether a plant has leaves or wood, which may be far away.
+bool has_far_pieces(const World& world);
 
 /// Centre and radius of a section's sphere at time t, camera-relative m: an arc of curvature k stretches what lies d
 /// beside its axis by at most 1 + |k| d.

@@ -14,6 +14,7 @@ namespace {
 struct Contents {
   bool meshes = false, grass = false, blades = false, crowns = false, bodies_beside_crowns = false, occluders = false;
   bool ground_cover = false, dome = true, environment = false, hiders = false;
+  bool brute = true, far_pieces = false;
 };
 
 Contents contents_of(const World& world) {
@@ -30,7 +31,9 @@ Contents contents_of(const World& world) {
   contents.ground_cover = world.ground_cover.columns > 0 && world.terrain != nullptr;
   contents.dome = world.scene.sky == Sky::dome;
   contents.environment = world.environment != nullptr;
-  contents.hiders = world.scene.detail != "brute" && has_hiders(world);
+  contents.brute = world.scene.detail == "brute";
+  contents.hiders = !contents.brute && has_hiders(world);
+  contents.far_pieces = world.scene.detail == "thinned" && has_far_pieces(world);
   return contents;
 }
 
@@ -58,10 +61,12 @@ void check_names(const Methods& methods) {
 void plan_geometry(const Contents& contents, Plan& plan) {
   const char* bodies = "plants, occluders or terrain";
   if (contents.meshes) plan.passes.push_back({"pose_mesh", "pose_mesh", bodies, "plants, occluders, terrain"});
-  if (contents.grass) plan.passes.push_back({"pose_grass", "pose_grass", "grass", "grass"});
+  if (contents.grass && contents.brute) plan.passes.push_back({"pose_grass", "pose_grass", "grass", "grass"});
   plan.passes.push_back({"clear_visible", "rasterise", "every frame", ""});
   if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", bodies, "plants, occluders, terrain"});
-  if (contents.grass) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
+  if (contents.far_pieces) plan.passes.push_back({"draw_far", "draw_far", "leaves and twigs, far away", "detail"});
+  if (contents.grass && contents.brute) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
+  if (contents.grass && !contents.brute) plan.passes.push_back({"draw_blades", "draw_blades", "grass", "detail"});
   if (contents.hiders)
     plan.passes.push_back({"farthest_depth", "farthest_depth",
                            "solid bodies or relief may hide what is behind, where the device has 64-bit atomics",

@@ -82,7 +82,7 @@ FrameRunner::Impl::Impl(Device& the_device, const World& the_world, std::uint32_
       std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; });
   if (grass)
     for (const ModalSeries& response : world.dynamics->grass) series.push_back(upload_series(device, response));
-  rasterise.emplace(device, mesh, grass, device.info().atomic64);
+  rasterise.emplace(device, mesh, grass && !seen, device.info().atomic64);
   choose(world.scene.methods);
 }
 
@@ -115,15 +115,11 @@ void FrameRunner::Impl::draw_seen() {
   seen->begin(pose, camera);
   batch = {};
   drawn_triangles = 0;
-  const bool hiders = seen->pose_hiders();
-  if (hiders) {
-    rasterise->run(drawn().triangles, drawn().posed, camera, visible);
-    seen->leave_out_behind(visible);
-  }
+  rasterise->clear(visible);
+  seen->draw_hiders(*rasterise, visible);
   while (true) {
-    batch.last = !seen->pose_next(series);
+    batch.last = !seen->draw_next(series, *rasterise, visible);
     drawn_triangles += seen->list().triangles;
-    rasterise->run(drawn().triangles, drawn().posed, camera, visible, batch.first && !hiders, seen->first_chunk());
     if (batch.last) return;
     resolve_batch();  // the next one overwrites its vertices
     batch.first = false;

@@ -41,7 +41,8 @@ SeenGeometry::SeenGeometry(Device& device, const World& world, bool thinned, std
   upload(layout_, world);
   if (!world.instances.empty()) pose_mesh_.emplace(device, thinned);
   if (std::any_of(world.grass.begin(), world.grass.end(), [](const GrassBlades& field) { return field.size() > 0; }))
-    pose_grass_.emplace(device, true);
+    draw_blades_.emplace(device, device.info().atomic64);
+  if (thinned && has_far_pieces(world)) draw_far_.emplace(device, device.info().atomic64);
   if (device.info().atomic64 && has_hiders(world)) farthest_depth_.emplace(device);
 }
 
@@ -70,18 +71,16 @@ void SeenGeometry::begin(const Pose& pose, const CameraView& camera) {
   lister_.begin(pose, camera);
 }
 
-bool SeenGeometry::pose_hiders() {
-  if (!farthest_depth_) return false;
+void SeenGeometry::draw_hiders(RasterisePass& rasterise, VisibilityBuffer& visible) {
+  if (!farthest_depth_) return;
   list_ = &lister_.hiders();
-  if (list_->chunks.empty()) return false;
+  if (list_->mesh.chunks.empty()) return;
   pose_list();
+  rasterise.draw_mesh(0, geometry_.triangles, 0, list_->mesh_chunks, geometry_.posed, camera_, visible);
   limbs_there_ = list_->limbs.size();
-  blocks_there_ = list_->blocks.size();
-  chunks_there_ = list_->chunks.size();
-  return true;
-}
+  blocks_there_ = list_->mesh.blocks.size();
+  chunks_there_ = list_->mesh_chunks;
 
-void SeenGeometry::leave_out_behind(const VisibilityBuffer& visible) {
   const std::size_t tiles = std::size_t{farthest_tiles(static_cast<std::uint32_t>(camera_.width))} *
                             farthest_tiles(static_cast<std::uint32_t>(camera_.height));
   if (farthest_.size() != tiles) farthest_ = Buffer<float>(device_, tiles, "farthest depths");
@@ -90,42 +89,55 @@ void SeenGeometry::leave_out_behind(const VisibilityBuffer& visible) {
   if (drawn_.hides()) lister_.leave_out_behind(drawn_);
 }
 
-bool SeenGeometry::pose_next(const std::vector<SwaySeries>& series) {
+bool SeenGeometry::draw_next(const std::vector<SwaySeries>& series, RasterisePass& rasterise,
+                             VisibilityBuffer& visible) {
   list_ = &lister_.next();
-  first_chunk_ = static_cast<std::uint32_t>(chunks_there_);
+  const std::uint32_t first_chunk = chunks_there_;
   pose_list();
   limbs_there_ = blocks_there_ = chunks_there_ = 0;  // the next batch is a new list
-  for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
-    const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
-    if (count > 0)
-      pose_grass_->run(geometry_.blades, pose_->grass[field], series[field], blade_units_, first, count,
-                       geometry_.posed);
+  for (std::size_t pass = 0; pass < rasterise.raster_passes(); ++pass) {
+    rasterise.draw_mesh(pass, geometry_.triangles, first_chunk, list_->posed_chunks, geometry_.posed, camera_, visible);
+    if (!list_->far_units.empty())
+      draw_far_->run(pass, geometry_.rest, geometry_.blocks, enlarged_.block_scale, limbs_, far_units_,
+                     list_->far_units.size(), camera_, geometry_.posed, visible);
+    draw_blades(pass, series, visible);
   }
   return lister_.more();
 }
 
+void SeenGeometry::draw_blades(std::size_t raster_pass, const std::vector<SwaySeries>& series,
+                               VisibilityBuffer& visible) {
+  for (std::size_t field = 0; field < blades_.fields.size(); ++field) {
+    const std::uint32_t first = list_->first_unit[field], count = list_->first_unit[field + 1] - first;
+    if (count > 0)
+      draw_blades_->run(raster_pass, geometry_.blades, pose_->grass[field], series[field], blade_units_, first, count,
+                        geometry_.triangles, camera_, geometry_.posed, visible);
+  }
+}
+
 void SeenGeometry::write_list() {
-  rewrite(device_, geometry_.blocks, list_->blocks, "posed blocks", blocks_there_);
+  rewrite(device_, geometry_.blocks, list_->mesh.blocks, "posed blocks", blocks_there_);
   rewrite(device_, limbs_, list_->limbs, "limb poses", limbs_there_);
-  if (thinned_) rewrite(device_, enlarged_.block_scale, list_->block_scale, "enlarged leaves", blocks_there_);
+  if (thinned_) rewrite(device_, enlarged_.block_scale, list_->mesh.block_scale, "enlarged leaves", blocks_there_);
+  rewrite(device_, far_units_, list_->far_units, "far pieces");
   rewrite(device_, blade_units_, list_->blade_units, "blade units");
   // The queue is in order: when this one is written, all are. Nothing is listed without a chunk.
-  rewrite(device_, geometry_.triangles.chunks, list_->chunks, "triangle chunks", chunks_there_, true);
+  rewrite(device_, geometry_.triangles.chunks, list_->mesh.chunks, "triangle chunks", chunks_there_, true);
 }
 
 void SeenGeometry::pose_list() {
   write_list();
   geometry_.triangles.mesh_chunks = list_->mesh_chunks;
-  geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->chunks.size()) - list_->mesh_chunks;
+  geometry_.triangles.grass_chunks = static_cast<std::uint32_t>(list_->mesh.chunks.size()) - list_->mesh_chunks;
   geometry_.vertices = list_->vertices;
-  geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->blocks.size() * vertex_block);
+  geometry_.mesh_vertices = static_cast<std::uint32_t>(list_->mesh.blocks.size() * vertex_block);
   std::size_t first_block = blocks_there_;
   if (geometry_.posed.points.size() < list_->vertices) {
     geometry_.posed = {Buffer<std::array<float, 4>>(device_, list_->vertices + list_->vertices / 4, "posed vertices")};
     first_block = 0;
   }
-  if (first_block < list_->blocks.size())
-    pose_mesh_->run(geometry_.rest, geometry_.blocks, first_block, list_->blocks.size(), limbs_,
+  if (first_block < list_->posed_blocks)
+    pose_mesh_->run(geometry_.rest, geometry_.blocks, first_block, list_->posed_blocks, limbs_,
                     thinned_ ? &enlarged_ : nullptr, geometry_.posed);
 }
 

@@ -7,8 +7,9 @@
 
 #include "host/frame/draw_list.hpp"
 #include "host/frame/geometry.hpp"
+#include "host/passes/draw_blades.hpp"
+#include "host/passes/draw_far.hpp"
 #include "host/passes/farthest_depth.hpp"
-#include "host/passes/pose_grass.hpp"
 #include "host/passes/pose_mesh.hpp"
 
 namespace understory {
@@ -27,16 +28,13 @@ class SeenGeometry {
 
   /// Starts a frame of `pose` (without the limbs of plants), which must live until its last batch is posed.
   void begin(const Pose& pose, const CameraView& camera);
-  /// Poses what may hide the rest of the frame, before its first batch. False: there is nothing of the kind in view, or
-  /// the device has no 64-bit atomics, without which a batch is drawn at once.
-  bool pose_hiders();
-  /// Leaves out what is hidden behind the hiders, once they are drawn.
-  void leave_out_behind(const VisibilityBuffer& visible);
-  /// Poses the next batch of what the camera sees; geometry() then holds its vertices and chunks, after those of the
-  /// hiders in the first batch. `series`: per World::grass. Returns whether more follow.
-  bool pose_next(const std::vector<SwaySeries>& series);
-  /// The batch's first chunk that is not drawn yet.
-  std::uint32_t first_chunk() const { return first_chunk_; }
+  /// Draws what may hide the rest of the frame, before its first batch, and leaves out what is hidden behind it.
+  /// Nothing happens when there is nothing of the kind in view, or the device has no 64-bit atomics, without which a
+  /// batch is drawn at once.
+  void draw_hiders(RasterisePass& rasterise, VisibilityBuffer& visible);
+  /// Poses the next batch of what the camera sees and draws it over what `visible` holds; geometry() then has its
+  /// vertices and chunks. `series`: per World::grass. Returns whether more follow.
+  bool draw_next(const std::vector<SwaySeries>& series, RasterisePass& rasterise, VisibilityBuffer& visible);
   const Geometry& geometry() const { return geometry_; }
   /// The last batch.
   const DrawList& list() const { return *list_; }
@@ -47,6 +45,7 @@ class SeenGeometry {
   void upload(const DetailLayout& layout, const World& world);
   void write_list();
   void pose_list();
+  void draw_blades(std::size_t raster_pass, const std::vector<SwaySeries>& series, VisibilityBuffer& visible);
 
   Device& device_;
   bool thinned_;
@@ -55,8 +54,9 @@ class SeenGeometry {
   DrawLister lister_;
   const Pose* pose_ = nullptr;
   const DrawList* list_ = nullptr;
-  std::size_t limbs_there_ = 0, blocks_there_ = 0, chunks_there_ = 0;  // of the list: on the device and posed already
-  std::uint32_t first_chunk_ = 0;
+  // Of the list: on the device, posed and drawn already.
+  std::size_t limbs_there_ = 0, blocks_there_ = 0;
+  std::uint32_t chunks_there_ = 0;
   CameraView camera_{};
   DrawnDepth drawn_;
   std::optional<FarthestDepthPass> farthest_depth_;  // where something may hide something
@@ -64,9 +64,11 @@ class SeenGeometry {
   Geometry geometry_;
   EnlargedLeaves enlarged_;
   Buffer<LimbPose> limbs_;
+  Buffer<FarUnit> far_units_;
   Buffer<BladeUnit> blade_units_;
   std::optional<PoseMeshPass> pose_mesh_;
-  std::optional<PoseGrassPass> pose_grass_;
+  std::optional<DrawFarPass> draw_far_;
+  std::optional<DrawBladesPass> draw_blades_;
   Buffer<std::array<std::uint32_t, 2>> faces_;
 };
 

@@ -10,8 +10,8 @@ namespace understory {
 /// Projected sizes below which elements go and the others grow, pixels: roots of a leaf's area, widths of a blade. What
 /// is drawn is spread evenly over what it stands for (spread_order.hpp); V then stays within 0.01 of brute force after
 /// a filter of 8 x 8 pixels (bench/scale.md).
-inline constexpr double leaf_pixels = 0.85, blade_pixels = 0.43;
-/// A twig thinner than this on the screen is drawn as a cone, pixels.
+inline constexpr double leaf_pixels = 0.85, blade_pixels = 0.4;
+/// A twig thinner than this on the screen is drawn as one triangle, pixels.
 inline constexpr double twig_pixels = 0.5;
 /// Share of the drawn units that are on their way in or out, smaller than the others: nothing appears at full size.
 inline constexpr double fading_share = 0.25;

@@ -4,9 +4,9 @@
 
 namespace understory {
 
-PoseGrassPass::PoseGrassPass(Device& device, bool thinned)
+PoseGrassPass::PoseGrassPass(Device& device)
     : lanes_(static_cast<std::size_t>(device.info().vector_width)),
-      kernel_(device, "pose_grass", "pose_grass", "pose_grass", thinned ? "-DTHINNED" : "") {}
+      kernel_(device, "pose_grass", "pose_grass", "pose_grass") {}
 
 void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const SwaySeries& series,
                         std::uint32_t first_blade, std::uint32_t blades, std::uint32_t first_vertex,
@@ -21,19 +21,6 @@ void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const Swa
   kernel_.launch(blades / lanes_, blades_per_group / lanes_, rest.root_x, rest.root_y, rest.root_z, rest.length,
                  rest.half_width, rest.bend_x, rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase,
                  wind, series, first_blade, first_vertex, posed.points);
-}
-
-void PoseGrassPass::run(const RestBlades& rest, const GrassWind& wind, const SwaySeries& series,
-                        const Buffer<BladeUnit>& units, std::uint32_t first, std::uint32_t count,
-                        PosedVertices& posed) {
-  if (wind.series_count != series.size() || std::size_t{first} + count > units.size())
-    throw Error(ErrorKind::unexpected, "pose_grass: " + std::to_string(count) + " units from " + std::to_string(first) +
-                                           " on of " + std::to_string(units.size()) + ", a series of " +
-                                           std::to_string(series.size()) + " samples");
-  const auto items = static_cast<std::uint32_t>(count * blades_per_unit / lanes_);
-  kernel_.launch(items, 64, rest.root_x, rest.root_y, rest.root_z, rest.length, rest.half_width, rest.bend_x,
-                 rest.bend_y, rest.facing_x, rest.facing_y, rest.flexibility, rest.phase, wind, series, units, first,
-                 items, posed.points);
 }
 
 }  // namespace understory

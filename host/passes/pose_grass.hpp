@@ -12,14 +12,10 @@ using SwaySeries = Buffer<std::array<float, 2>>;
 
 class PoseGrassPass {
  public:
-  /// `thinned`: poses lists of units instead of all blades.
-  explicit PoseGrassPass(Device& device, bool thinned = false);
+  explicit PoseGrassPass(Device& device);
   /// Poses `blades` blades (a multiple of 256) from `first_blade` on into `posed` from `first_vertex` on.
   void run(const RestBlades& rest, const GrassWind& wind, const SwaySeries& series, std::uint32_t first_blade,
            std::uint32_t blades, std::uint32_t first_vertex, PosedVertices& posed);
-  /// Poses `count` units from `first` on. Where they lie in `rest` and `posed` is the caller's to get right.
-  void run(const RestBlades& rest, const GrassWind& wind, const SwaySeries& series, const Buffer<BladeUnit>& units,
-           std::uint32_t first, std::uint32_t count, PosedVertices& posed);
 
  private:
   std::size_t lanes_;

@@ -12,21 +12,30 @@ struct VisibilityBuffer {
   Buffer<std::uint32_t> words;  // two per pixel
 };
 
+/// The forms of a drawing kernel: one with 64-bit atomics; else two, of which the first finds every pixel's depth and
+/// the second its triangle, each over all that is drawn.
+std::vector<Kernel> raster_kernels(Device& device, const char* program, const char* name, bool wide_atomics);
+
 class RasterisePass {
  public:
   /// `mesh`, `grass`: which kinds of triangles the scene has; kernels of an absent kind are not built.
   /// `wide_atomics` false: the two-pass form for devices without 64-bit atomics; same pixels.
   RasterisePass(Device& device, bool mesh, bool grass, bool wide_atomics);
-  /// Draws every triangle of the kinds this pass was made for, into a cleared buffer or over what it holds. Those of
-  /// the chunks before `first_chunk`, which are of meshes, it holds already: with 64-bit atomics only.
+  void clear(VisibilityBuffer& visible);
+  /// How often all has to be drawn.
+  std::size_t raster_passes() const { return wide_atomics_ ? 1 : 2; }
+  /// Draws chunks `first` up to `end` of meshes over what the buffer holds.
+  void draw_mesh(std::size_t raster_pass, const TriangleTables& triangles, std::uint32_t first, std::uint32_t end,
+                 const PosedVertices& posed, const CameraView& camera, VisibilityBuffer& visible);
+  /// Draws every triangle of the kinds this pass was made for into a cleared buffer.
   void run(const TriangleTables& triangles, const PosedVertices& posed, const CameraView& camera,
-           VisibilityBuffer& visible, bool clear = true, std::uint32_t first_chunk = 0);
+           VisibilityBuffer& visible);
 
  private:
   std::size_t lanes_;
-  std::size_t words_per_item_;  // of the visibility buffer, when it is cleared
+  bool wide_atomics_;
   Kernel clear_;
-  std::vector<Kernel> rasterise_mesh_, rasterise_grass_;  // one each with 64-bit atomics, else one per raster pass
+  std::vector<Kernel> rasterise_mesh_, rasterise_grass_;
 };
 
 }  // namespace understory

@@ -6,8 +6,8 @@
 #include "kernels/shared/project_triangles.h"
 
 // Larger boxes keep too many lanes waiting. Products of 1/256 pixels stay far below 2^31.
-#define FEW_CENTRES 32
-#define FEW_ACROSS 16
+#define FEW_CENTRES 96
+#define FEW_ACROSS 32
 
 typedef struct {
   whole at_first, right, next_row;  // of the edge function: at the box's first centre, and its steps to the next one

@@ -14,8 +14,9 @@
   field(PosedBlock, rest_block) field(PosedBlock, limb_pose) record(PosedBlock)                                     \
   field(TriangleChunk, first_vertex) field(TriangleChunk, first_index) field(TriangleChunk, count)                  \
   field(TriangleChunk, owner) record(TriangleChunk)                                                                 \
-  field(BladeUnit, first_blade) field(BladeUnit, first_vertex) field(BladeUnit, width) field(BladeUnit, pairs)       \
+  field(BladeUnit, first_triangle) field(BladeUnit, width) field(BladeUnit, pairs) field(BladeUnit, padding_)       \
   record(BladeUnit)                                                                                                 \
+  field(FarUnit, first_block) field(FarUnit, first_triangle) record(FarUnit)                                     \
   field(GrassWind, direction_x) field(GrassWind, direction_y) field(GrassWind, slowness)                            \
   field(GrassWind, sample_time) field(GrassWind, series_rate) field(GrassWind, mean_bend)                           \
   field(GrassWind, flutter_amplitude) field(GrassWind, flutter_phase) field(GrassWind, lateral_scale)               \

@@ -43,13 +43,20 @@ typedef struct {
   record_uint owner;         // row of the owner table
 } TriangleChunk;             // 16 bytes
 
-/// 16 blades that are drawn: blades first_blade + lane become strips of 2 pairs + 1 vertices, vertex k of lane l at
-/// first_vertex + 256 k + l. `width`: how much wider they are than at rest.
+/// 16 blades that are drawn, those of lanes first_triangle % 256 + 0..15 of its chunk and of the chunks after it: strips of
+/// 2 pairs + 1 vertices. `width`: how much wider they are than at rest.
 typedef struct {
-  record_uint first_blade, first_vertex;
+  record_uint first_triangle;       // id
   float width;
   record_uint pairs;                // 1, 2 or 3
+  record_uint padding_;
 } BladeUnit;                        // 16 bytes
+
+/// 16 far leaves or twigs that are drawn, a triangle each: corners a of all of them, then b, then c in three posed blocks.
+typedef struct {
+  record_uint first_block;          // posed
+  record_uint first_triangle;       // id
+} FarUnit;
 
 /// The wind over one grass field at time t. Blades look up their own arrival time in the series.
 /// Response series: tip-angle response of the field's sway mode, along and across the mean wind, radians at flexibility 1;
@@ -101,7 +108,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(LimbPose) == 128 && sizeof(PosedBlock) == 8 && sizeof(TriangleChunk) == 16);
-static_assert(sizeof(BladeUnit) == 16);
+static_assert(sizeof(BladeUnit) == 16 && sizeof(FarUnit) == 8);
 static_assert(sizeof(GrassWind) == 64 && sizeof(CameraView) == 80 && sizeof(ShadingSphere) == 32 && sizeof(CrownRecord) == 96);
 }  // namespace understory
 #endif

@@ -52,9 +52,9 @@ TEST(DetailLayout, HoldsEveryTriangleOfEveryPrototypeOnce) {
       }
     for (const DetailSection& section : layout.sections[p]) {
       EXPECT_EQ(section.triangles % unit_triangles, 0u);
-      thinned += section.thins();
-      twigs += section.coarse >= 0;
-      if (section.is_coarse) continue;
+      thinned += section.thins;
+      twigs += section.far >= 0;
+      if (section.is_far) continue;
       for (std::uint32_t t = section.first_triangle; t < section.first_triangle + section.triangles; ++t) {
         const std::size_t first = std::size_t{section.first_block} * vertex_block;
         if (layout.source[t] == no_source) continue;
@@ -75,7 +75,7 @@ TEST(DetailLayout, AUnitNeedsNoVertexOfALaterOne) {
   const DetailLayout layout = lay_out_detail(world, true);
   for (const std::vector<DetailSection>& sections : layout.sections)
     for (const DetailSection& section : sections) {
-      if (!section.thins()) continue;
+      if (!section.thins) continue;
       ASSERT_EQ(section.blocks, section.triangles / unit_triangles * section.unit_blocks);
       for (std::uint32_t t = 0; t < section.triangles; ++t) {
         const std::uint32_t end = (t / unit_triangles + 1) * section.unit_blocks * vertex_block,
@@ -94,14 +94,14 @@ double area_of(const DetailLayout& layout, const DetailSection& section, std::si
   return glm::length(glm::cross(b - a, c - a));
 }
 
-TEST(DetailLayout, ALeafDrawnAsOneTriangleKeepsItsArea) {
+TEST(DetailLayout, ALeafDrawnAsOneTriangleKeepsItsAreaATwigHalfOfItsSurface) {
   const World world = windy_meadow();
   const DetailLayout layout = lay_out_detail(world, true);
-  std::size_t leaves = 0;
+  std::size_t leaves = 0, twigs = 0;
   for (const std::vector<DetailSection>& sections : layout.sections)
     for (const DetailSection& whole : sections) {
-      if (!whole.thins() || whole.coarse < 0) continue;
-      // Triangles of one leaf follow each other and share corners; what they came from says which leaf each is.
+      if (whole.far < 0) continue;
+      // Triangles of one leaf or twig follow each other and share corners; what they came from says which leaf each is.
       std::map<std::uint32_t, double> area_by_source;
       std::vector<std::uint32_t> members;
       double area = 0;
@@ -121,16 +121,17 @@ TEST(DetailLayout, ALeafDrawnAsOneTriangleKeepsItsArea) {
         area += area_of(layout, whole, t);
       }
       end_leaf();
-      const DetailSection& coarse = sections[static_cast<std::size_t>(whole.coarse)];
-      for (std::uint32_t t = coarse.first_triangle; t < coarse.first_triangle + coarse.triangles; ++t) {
+      const DetailSection& far = sections[static_cast<std::size_t>(whole.far)];
+      for (std::uint32_t t = far.first_triangle; t < far.first_triangle + far.triangles; ++t) {
         if (layout.source[t] == no_source) continue;
         ASSERT_TRUE(area_by_source.contains(layout.source[t]));
-        const double expected = area_by_source[layout.source[t]];
-        ASSERT_NEAR(area_of(layout, coarse, t), expected, 1e-4 * expected);
-        ++leaves;
+        const double expected = area_by_source[layout.source[t]] * (whole.thins ? 1 : 0.5);
+        ASSERT_NEAR(area_of(layout, far, t), expected, (whole.thins ? 1e-4 : 5e-3) * expected);  // in float, and thin
+        ++(whole.thins ? leaves : twigs);
       }
     }
   EXPECT_GT(leaves, 500u);
+  EXPECT_GT(twigs, 50u);
 }
 
 TEST(DrawList, SpheresHoldTheirSectionsInAStorm) {
@@ -200,14 +201,14 @@ TEST(DrawList, CulledHoldsAllOfWhatIsInViewAndThinnedLess) {
   };
   const DrawList whole = listed(false, view), thinned = listed(true, view);
   EXPECT_LT(thinned.triangles, whole.triangles);
-  EXPECT_TRUE(whole.block_scale.empty());
-  EXPECT_EQ(thinned.block_scale.size(), thinned.blocks.size());
+  EXPECT_TRUE(whole.mesh.block_scale.empty());
+  EXPECT_EQ(thinned.mesh.block_scale.size(), thinned.mesh.blocks.size());
   for (const BladeUnit& unit : whole.blade_units) {
     EXPECT_EQ(unit.pairs, 3u);
     EXPECT_EQ(unit.width, 1.0f);
   }
   for (const DrawList* list : {&whole, &thinned})
-    for (const TriangleChunk& chunk : list->chunks) {
+    for (const TriangleChunk& chunk : list->mesh.chunks) {
       ASSERT_LE(chunk.count, triangles_per_chunk);
       ASSERT_LT(chunk.first_vertex, list->vertices);
     }
@@ -235,16 +236,16 @@ TEST(DrawList, BatchesHoldTogetherWhatOneListHolds) {
     ++batches;
     triangles += batch.triangles;
     units += batch.blade_units.size();
-    blocks += batch.blocks.size();
+    blocks += batch.mesh.blocks.size();
     ASSERT_EQ(batch.first_unit.size(), world.grass.size() + 1);
     EXPECT_EQ(batch.first_unit.back(), batch.blade_units.size());
-    for (const PosedBlock& block : batch.blocks) ASSERT_LT(block.limb_pose, batch.limbs.size());
-    for (const TriangleChunk& chunk : batch.chunks) ASSERT_LT(chunk.first_vertex, batch.vertices);
+    for (const PosedBlock& block : batch.mesh.blocks) ASSERT_LT(block.limb_pose, batch.limbs.size());
+    for (const TriangleChunk& chunk : batch.mesh.chunks) ASSERT_LT(chunk.first_vertex, batch.vertices);
   }
   EXPECT_GT(batches, 3u);
   EXPECT_EQ(triangles, whole.triangles);
   EXPECT_EQ(units, whole.blade_units.size());
-  EXPECT_EQ(blocks, whole.blocks.size());
+  EXPECT_EQ(blocks, whole.mesh.blocks.size());
 }
 
 TEST(DrawList, PlantsPosedOneByOneAreThoseOfTheWholePose) {
