@@ -108,7 +108,6 @@ class TableCases {
     add_garbage("grass-height", model);
   }
 
-  /// Nodes on steps of the 16-bit numbers, so that storage adds no error: what is measured is the look-up.
   void add_grass_transmittance() {
     for (const bool open_below : {false, true}) {
       const auto layer = std::make_shared<GrassLayer>();
@@ -116,18 +115,13 @@ class TableCases {
       layer->columns = layer->rows = 16;
       layer->levels = 5;
       layer->level_height = 0.25;
-      const double step = (layer_high - layer_low) / 65535, below_step = layer_high / 65535;
       for (std::size_t i = 0; i < 256; ++i) {
         Random random = case_random("column", i);
         layer->ground.push_back(static_cast<float>(std::round(64 * random.uniform(0, 0.3)) / 64));
-        const auto number = [&](double value) {
-          return static_cast<float>(layer_low + step * std::round((value - layer_low) / step));
-        };
         for (std::uint32_t k = 0; k < layer->levels; ++k)
-          layer->light.push_back(
-              {number(0.1 * (k + 1) * random.uniform()), number(0.05 * random.uniform()),
-               number(random.uniform(-0.1, 0.1)), number(random.uniform(-0.1, 0.1)),
-               open_below ? static_cast<float>(below_step * std::floor(20000 * random.uniform())) : 0});
+          layer->light.push_back({float(0.1 * (k + 1) * random.uniform()), float(0.05 * random.uniform()),
+                                  float(random.uniform(-0.1, 0.1)), float(random.uniform(-0.1, 0.1)),
+                                  open_below ? float(0.18 * random.uniform()) : 0});
       }
       const FragmentModel model{[layer, open_below](Device& device, FragmentPlanes& planes, Buffer<float>& out) {
                                   GrassTransmittancePass(device, open_below)

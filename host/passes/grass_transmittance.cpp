@@ -9,31 +9,33 @@
 namespace understory {
 namespace {
 
-constexpr double steps = 65535;
-
-std::uint16_t number(double value, double low, double high) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * steps));
-}
-
-std::vector<std::uint16_t> node_numbers(const GrassLayer& layer) {
-  std::vector<std::uint16_t> numbers;
+/// Above, zenith, x and y of every node.
+std::vector<float> node_numbers(const GrassLayer& layer) {
+  std::vector<float> numbers;
   numbers.reserve(4 * layer.light.size());
   for (const LayerLight& light : layer.light)
-    for (const float value : {light.above, light.zenith, light.x, light.y})
-      numbers.push_back(number(double(value), layer_low, layer_high));
+    numbers.insert(numbers.end(), {light.above, light.zenith, light.x, light.y});
   return numbers;
 }
 
-std::vector<std::uint16_t> below_numbers(const GrassLayer& layer, bool open_below) {
-  std::vector<std::uint16_t> numbers;
-  for (std::size_t i = 0; open_below && i < layer.light.size(); ++i)
-    numbers.push_back(number(double(layer.light[i].below), 0, layer_high));
+std::vector<float> below_numbers(const GrassLayer& layer, bool open_below) {
+  std::vector<float> numbers;
+  for (std::size_t i = 0; open_below && i < layer.light.size(); ++i) numbers.push_back(layer.light[i].below);
   return numbers;
 }
 
-template <typename T>
-Buffer<T> upload(Device& device, const std::vector<T>& values, const char* what) {
-  return values.empty() ? Buffer<T>() : Buffer<T>(device, std::span<const T>(values), what);
+/// The ground of every column and of the one a row higher, so that four columns are one load.
+std::vector<float> ground_pairs(const GrassLayer& layer) {
+  std::vector<float> pairs;
+  const std::size_t count = layer.ground.size();
+  pairs.reserve(2 * count);
+  for (std::size_t i = 0; i < count; ++i)
+    pairs.insert(pairs.end(), {layer.ground[i], layer.ground[std::min(i + layer.columns, count - 1)]});
+  return pairs;
+}
+
+Buffer<float> upload(Device& device, const std::vector<float>& values, const char* what) {
+  return values.empty() ? Buffer<float>() : Buffer<float>(device, std::span<const float>(values), what);
 }
 
 }  // namespace
@@ -52,7 +54,7 @@ GrassLayerTable::GrassLayerTable(Device& device, const GrassLayer& layer, bool o
                                            " nodes, at least 2 each way are needed");
   require_size("grass-transmittance", "ground", layer.ground.size(), columns);
   require_size("grass-transmittance", "light", layer.light.size(), columns * levels_);
-  ground_ = upload(device, layer.ground, "ground under grass");
+  ground_ = upload(device, ground_pairs(layer), "ground under grass");
   nodes_ = upload(device, node_numbers(layer), "light among grass");
   below_ = upload(device, below_numbers(layer, open_below), "light from below grass");
 }
@@ -69,9 +71,6 @@ GrassLayerGrid GrassLayerTable::grid(glm::dvec3 eye) const {
   grid.levels = levels_;
   grid.levels_per_metre = static_cast<float>(1 / level_height_);
   grid.datum = static_cast<float>(datum_ - eye.z);
-  grid.low = static_cast<float>(layer_low);
-  grid.step = static_cast<float>((layer_high - layer_low) / steps);
-  grid.below_step = static_cast<float>(layer_high / steps);
   return grid;
 }
 
@@ -86,10 +85,10 @@ void GrassTransmittancePass::run(const FragmentPlanes& planes, const GrassLayerT
   require_planes("grass-transmittance", planes, visibility);
   if (layer.open_below() != open_below_)
     throw Error(ErrorKind::unexpected, "grass-transmittance: layer and program disagree about the sky below");
-  const std::uint32_t items = lanes_.items(planes);
-  kernel_.launch(items, lanes_.local_size(), planes.position_x, planes.position_y, planes.position_z, planes.normal_x,
-                 planes.normal_y, planes.normal_z, layer.grid(eye), layer.ground(), layer.nodes(), layer.below(), items,
-                 visibility);
+  const std::uint32_t groups = GRASS_GROUPS(lanes_.count()), items = lanes_.items(planes) / groups;
+  kernel_.launch(items, std::max<std::size_t>(lanes_.local_size() / groups, 1), planes.position_x, planes.position_y,
+                 planes.position_z, planes.normal_x, planes.normal_y, planes.normal_z, layer.grid(eye), layer.ground(),
+                 layer.nodes(), layer.below(), items, visibility);
 }
 
 }  // namespace understory

@@ -10,9 +10,6 @@
 
 namespace understory {
 
-/// Largest and smallest of the numbers that LayerLight holds beside `below`; they keep 16 bits of the range.
-inline constexpr double layer_low = -0.4, layer_high = 0.6;
-
 /// A layer on the device, at least two columns and rows.
 class GrassLayerTable {
  public:
@@ -20,17 +17,16 @@ class GrassLayerTable {
   GrassLayerTable(Device& device, const GrassLayer& layer, bool open_below);
   /// The grid as seen from `eye`, m relative to the origin.
   GrassLayerGrid grid(glm::dvec3 eye) const;
-  const Buffer<float>& ground() const { return ground_; }
-  const Buffer<std::uint16_t>& nodes() const { return nodes_; }
-  const Buffer<std::uint16_t>& below() const { return below_; }  // empty unless open_below
+  const Buffer<float>& ground() const { return ground_; }  // of each column and of the one a row higher
+  const Buffer<float>& nodes() const { return nodes_; }    // four numbers each
+  const Buffer<float>& below() const { return below_; }    // one each; empty unless open_below
   bool open_below() const { return below_.size() > 0; }
 
  private:
   Region extent_;
   std::uint32_t columns_, rows_, levels_;
   double level_height_, datum_;
-  Buffer<float> ground_;
-  Buffer<std::uint16_t> nodes_, below_;
+  Buffer<float> ground_, nodes_, below_;
 };
 
 class GrassTransmittancePass {

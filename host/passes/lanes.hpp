@@ -17,6 +17,7 @@ class Lanes {
   /// another number.
   Lanes(const Device& device, int count, const std::string& pass = "");
 
+  int count() const { return count_; }
   std::string option() const { return "-DW=" + std::to_string(count_); }
   std::uint32_t items(const FragmentPlanes& planes) const {
     return static_cast<std::uint32_t>(planes.padded_fragments / static_cast<std::size_t>(count_));

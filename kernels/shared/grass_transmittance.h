@@ -1,6 +1,6 @@
 // Visibility among grass from a grid of the light there (GrassLayer in sim/grass_layer.hpp). Each node holds
 //   V_c(n) = (1 + n_z) (above + zenith n_z) + x n_x + y n_y + below (1 - n_z)
-// as numbers of 16 bits, interpolated between columns and levels. What comes out is V_c over the open dome's factor, so
+// interpolated between columns and levels. What comes out is V_c over the open dome's factor, so
 // that the dome multiplies it like everything else; under an open lower sky (below > 0) it is V_c itself.
 #ifndef UNDERSTORY_GRASS_TRANSMITTANCE_H
 #define UNDERSTORY_GRASS_TRANSMITTANCE_H
@@ -16,17 +16,19 @@ typedef std::uint32_t layer_count;
 typedef float layer_number;
 #endif
 
-/// The grid's extent and what its numbers mean. A node's number q of 0 to 65535 stands for low + step q.
+/// Groups of W fragments that a work-item takes: so many that one group's waiting is another's work. At W = 1 the
+/// device has other work-items for that.
+#define GRASS_GROUPS(lanes) ((lanes) == 1 ? 1 : 8)
+
+/// The grid's extent.
 typedef struct {
-  layer_number low_x, low_y;               // low corner, camera-relative m
+  layer_number low_x, low_y;  // low corner, camera-relative m
   layer_number columns_per_metre, rows_per_metre;
-  layer_count columns, rows;               // 0: no grass
+  layer_count columns, rows;  // 0: no grass
   layer_count levels;
   layer_number levels_per_metre;
-  layer_number datum;                      // zero of the columns' ground, camera-relative m
-  layer_number low, step;                  // of above, zenith, x and y
-  layer_number below_step;                 // of below, whose low is 0
-} GrassLayerGrid;                          // 48 bytes
+  layer_number datum;  // zero of the columns' ground, camera-relative m
+} GrassLayerGrid;      // 36 bytes
 
 typedef struct {
   real above, zenith, x, y, below;
@@ -45,7 +47,7 @@ SHARED real grass_transmittance(const GrassLight light, real a, real b, real c) 
 }
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(GrassLayerGrid) == 48);
+static_assert(sizeof(GrassLayerGrid) == 36);
 }  // namespace understory
 #endif
 #endif

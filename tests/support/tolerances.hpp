@@ -22,8 +22,9 @@ inline constexpr double ellipsoid_crown = 2e-5;
 // Two roundings of numbers below 1.
 inline constexpr double grass = 3e-7;
 inline constexpr double open_dome = 1.2e-7;
-// Light among grass: four numbers in steps of 1/65535, each times at most 2, and the place between nodes to 2e-6 m.
-inline constexpr double grass_layer = 1.5e-4;
+// Light among grass: a place between nodes is known to some roundings of a coordinate of up to 5 m, 1e-6 m, and there
+// are up to 15 nodes a metre that differ by up to 0.5, each number times at most 2.
+inline constexpr double grass_layer = 1.5e-5;
 // Bilinear: cell coordinates up to 100 are rounded to 24 bits, times a slope of at most 1 per cell.
 inline constexpr double ground_cover = 2e-5;
 // solid_angle_cosine: least-maximum fits of 8.5e-6 from 4 radii on and of 1.0e-5 from 1.5 on, and roundings.
