@@ -23,7 +23,7 @@ constexpr KernelCost costs[] = {
     {"crown-transmittance", "fragment", 28, 4, 91, 1, 0, 0, false,
      "two roots and a quartic one after another: latency of the chain, not throughput"},
     {"crown-transmittance/dome", "fragment", 28, 4, 106.5, 1, 0, 0, false,
-     "four roots and two quartics one after another: latency of the chain, not throughput"},
+     "three roots and two quartics one after another: latency of the chain, not throughput"},
     {"crown-field", "fragment", 28, 4, 52, 0, 3, 0, false,
      "three words a fragment from a table larger than the second-level cache, and the unpacking of their bytes"},
     {"crown-baked", "fragment", 8, 4, 15, 0, 1, 0, false, "one word a fragment from a table of 12.8 MB: cache misses"},

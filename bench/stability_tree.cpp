@@ -147,7 +147,7 @@ std::vector<StabilityCase> transmittance_stability(std::size_t samples) {
     CrownMethod method = transmittance_method(dome);
     method.rises_as_foliage_thins = false;  // each density has a fit of its own
     method.stated_error = dome ? 6e-5 : 3e-6;
-    method.note = dome ? "lune_width 3e-5 (kernels/shared/lune.h), twice"
+    method.note = dome ? "lune_first 3e-5 (kernels/shared/lune.h), twice"
                        : "rounding of sums of 25 terms up to 4 with alternating signs: 3e-6";
     if (!dome) {
       method.stated_jump = 6.4e-3;

@@ -71,23 +71,20 @@ kernel void shade_crown_transmittance(global const float* position_x, global con
   const bits rows = owner_row(LOAD(owner, i), owners);
   const Direction position = {LOAD(position_x, i), LOAD(position_y, i), LOAD(position_z, i)};
   const Direction normal = {LOAD(normal_x, i), LOAD(normal_y, i), LOAD(normal_z, i)};
+  const whole crowns_here = signed_owner_column(owner_crown, rows);
+  const int one_owner = ONE_OWNER(rows);
   real v = REAL(1.0);
   truth outside = (truth)(0);
-#define SHADE(crown, out) \
-  shade(shells + first[crown], shells + min(first[(crown) + 1], shell_count), position, normal, out)
-  if (ONE_OWNER(rows)) {
-    const int crown = owner_crown[FIRST_LANE(rows)];
-    if (crown >= 0 && crown < (int)crown_count) v = SHADE(crown, &outside);
-  } else {
-    const whole crowns_here = signed_owner_column(owner_crown, rows);
-    for (truth left = (crowns_here >= 0) & (crowns_here < (whole)((int)crown_count)); ANY(left);) {
-      const uint crown = next_owner(TO_BITS(crowns_here), left);
-      const truth lanes = left & (crowns_here == (whole)((int)crown));
-      left &= NOT(lanes);
-      truth out;
-      v = PICK(lanes, SHADE(crown, &out), v);
-      outside |= lanes & out;
-    }
+  // One place that calls `shade`: with two, compilers call it through memory, which takes as long as the model itself.
+  for (truth left = (crowns_here >= 0) & (crowns_here < (whole)((int)crown_count)); ANY(left);) {
+    const uint crown = one_owner ? (uint)FIRST_LANE(crowns_here) : next_owner(TO_BITS(crowns_here), left);
+    const truth lanes = left & (crowns_here == (whole)((int)crown));
+    left &= NOT(lanes);
+    truth out;
+    const uint end = min(first[crown + 1], shell_count);
+    const real through = shade(shells + first[crown], shells + end, position, normal, &out);
+    v = PICK(lanes, through, v);
+    outside |= lanes & out;
   }
   STORE(v, visibility, i);
   if (ANY(outside)) add_validity(validity, i, outside, VALIDITY_OUTSIDE_MODEL);

@@ -26,10 +26,10 @@ namespace understory {
 
 /// Where a fragment is in a shell.
 typedef struct {
-  real square;     // q^2, at least 1e-30
-  real along;      // s
-  real rise;       // g.z
-  real stretch;    // a^2, 1 for a sphere
+  real square;   // q^2, at least 1e-30
+  real along;    // s
+  real rise;     // g.z
+  real stretch;  // a, 1 for a sphere
 } ShellPlace;
 
 /// c0 + c1 z + ... + c4 z^4
@@ -45,14 +45,15 @@ SHARED ShellPlace place_in_shell(Direction offset, Direction normal, MATRIX to_u
   const Direction p = to_unit_sphere(offset, first, second, third);
   // R M^T p: as long as q for a sphere.
   Direction g;
-  g.x = (real)(radius) * fma(first.x, p.x, fma(second.x, p.y, third.x * p.z));
-  g.y = (real)(radius) * fma(first.y, p.x, fma(second.y, p.y, third.y * p.z));
-  g.z = (real)(radius) * fma(first.z, p.x, fma(second.z, p.y, third.z * p.z));
+  g.x = (real)(radius)*fma(first.x, p.x, fma(second.x, p.y, third.x * p.z));
+  g.y = (real)(radius)*fma(first.y, p.x, fma(second.y, p.y, third.y * p.z));
+  g.z = (real)(radius)*fma(first.z, p.x, fma(second.z, p.y, third.z * p.z));
   ShellPlace place;
   place.square = at_least(dot_product(p, p), REAL(1e-30));
-  place.stretch = sqrt(place.square / at_least(dot_product(g, g), REAL(1e-30)));
-  place.along = place.stretch * dot_product(g, normal);
-  place.rise = place.stretch * g.z;
+  const real stretch = sqrt(place.square / at_least(dot_product(g, g), REAL(1e-30)));
+  place.stretch = sqrt(stretch);
+  place.along = stretch * dot_product(g, normal);
+  place.rise = stretch * g.z;
   return place;
 }
 
@@ -70,7 +71,7 @@ SHARED ShellPlace place_in_sphere(Direction offset, Direction normal, ELEMENT in
 SHARED real crown_decay(ShellPlace place, ELEMENT optical, ELEMENT bend, PRIVATE real* z) {
   const real gap = at_least(REAL(1.0) - place.square, REAL(0.0)), half_chord = sqrt(gap);
   *z = half_chord / fma((real)(bend), half_chord, REAL(1.0));
-  return exp_minus(at_least(REAL(0.375) * (real)(optical) * sqrt(place.stretch) * gap, REAL(0.0)));
+  return exp_minus(at_least(REAL(0.375) * (real)(optical)*place.stretch * gap, REAL(0.0)));
 }
 
 /// Within the shell, `sky: sphere`.
@@ -108,6 +109,14 @@ SHARED real blocked_outside(ShellPlace place, ELEMENT opacity, MATRIX outside) {
   return PICK(fabs(place.along) < REAL(1.0), at_least(cut, REAL(0.0)), all) * (inverse * inverse * inverse);
 }
 
+/// The same on the shell, of which `place` tells the direction only: the polynomials' first coefficients are left.
+SHARED real blocked_at_rim(ShellPlace place, ELEMENT opacity, MATRIX outside) {
+  const real s = at_least(at_most(place.along, REAL(1.0)), REAL(-1.0)), v = s * s;
+  real even = fma((real)(outside[20]), v, (real)(outside[15]));
+  even = fma(fma(fma(even, v, (real)(outside[10])), v, (real)(outside[5])), v, (real)(outside[0]));
+  return at_least(fma(REAL(-0.5) * (real)(opacity), s, even), REAL(0.0));
+}
+
 /// Of blocked_outside, the part above the horizon. Tangent plane and horizon leave the shares h and z of the disc's
 /// width; both leave h z when they cross at a right angle, the lesser when they are one, h + z - 1 when they face each
 /// other (the Frechet bounds of joint shares), and what c = n.z puts between.
@@ -127,7 +136,7 @@ SHARED real blocked_under_dome(ShellPlace place, real c, real open, ELEMENT opac
   rim.along = place.along * inverse;
   rim.rise = place.rise * inverse;
   const real seen = lune_mean(rim, c, (real)(within[0]), (real)(within[5]), (real)(within[10]));
-  const real estimate = blocked_outside(rim, opacity, outside) * share_above_horizon(rim, c);
+  const real estimate = blocked_at_rim(rim, opacity, outside) * share_above_horizon(rim, c);
   const real rest = open - at_least(seen, REAL(0.0)) - estimate;
   const real p = inverse * inverse, square = p * p;
   return fma(rest, square * square, blocked_outside(place, opacity, outside) * share_above_horizon(place, c));
@@ -140,8 +149,9 @@ inline double crown_transmittance(const TransmittanceShell& shell, double x, dou
                                   double c, bool dome) {
   const Direction offset = {x, y, z}, normal = {a, b, c};
   const ShellPlace place = place_in_shell(offset, normal, shell.to_unit, shell.radius);
-  double v = dome ? open_dome(c) - blocked_under_dome(place, c, open_dome(c), shell.opacity, shell.within, shell.outside)
-                  : 1 - blocked_outside(place, shell.opacity, shell.outside);
+  double v = dome
+                 ? open_dome(c) - blocked_under_dome(place, c, open_dome(c), shell.opacity, shell.within, shell.outside)
+                 : 1 - blocked_outside(place, shell.opacity, shell.outside);
   if (place.square <= 1)
     v = dome ? transmittance_under_dome(place, c, shell.optical, shell.bend, shell.within)
              : transmittance_within(place, shell.optical, shell.bend, shell.within);
