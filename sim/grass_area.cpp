@@ -1,118 +1,24 @@
 #include "sim/grass_area.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
 
-#include "kernels/shared/grass_bend.h"
-#include "kernels/shared/pose_blade.h"
-#include "sim/dynamics.hpp"
 #include "sim/grass.hpp"
-#include "sim/wind.hpp"
+#include "sim/grass_pieces.hpp"
 #include "sim/world_builder.hpp"
 
 namespace understory {
 namespace {
 
-constexpr double cells_per_height = 16, most_columns = 65536;
-constexpr double smallest_cell = 0.03;  // m: smaller ones would hold a single blade, which does not shade itself
-constexpr double border = 2;            // in heights of the grass: further away it hides less than 3 % of the sky
-constexpr std::uint32_t slab_count = 12;
-constexpr int points_per_blade = 8;
-
-/// A piece of a blade or mesh, small beside a cell.
-struct Piece {
-  glm::dvec3 position;   // relative to the origin, m
-  double area;           // one-sided, m^2
-  double normal_cosine;  // to the vertical
-};
-using Visit = std::function<void(const Piece&)>;
-
-/// Half-width at `share` of a blade's length, in units of its base half-width.
-double blade_width(double share) {
-  for (int pair = 0; pair < 2; ++pair)
-    if (share < blade_pair_place[pair + 1]) {
-      const double f = (share - blade_pair_place[pair]) / (blade_pair_place[pair + 1] - blade_pair_place[pair]);
-      return std::lerp(blade_pair_width[pair], blade_pair_width[pair + 1], f);
-    }
-  return blade_pair_width[2] * (1 - share) / (1 - blade_pair_place[2]);
-}
-
-void visit_blades(const GrassBlades& field, const GrassWind& steady, const Visit& visit) {
-  double width[points_per_blade];
-  for (int k = 0; k < points_per_blade; ++k) width[k] = blade_width((k + 0.5) / points_per_blade);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const GrassBend bend = grass_bend(steady, 0, 0, double(field.bend_x[i]), double(field.bend_y[i]),
-                                      double(field.flexibility[i]), double(field.phase[i]));
-    const double angle = std::hypot(bend.x, bend.y), length = double(field.length[i]);
-    const glm::dvec2 towards = angle > 0 ? glm::dvec2(bend.x, bend.y) / angle : glm::dvec2(1, 0);
-    const glm::dvec3 across(std::cos(double(field.facing[i])), std::sin(double(field.facing[i])), 0);
-    const glm::dvec3 root(double(field.root_x[i]), double(field.root_y[i]), double(field.root_z[i]));
-    for (int k = 0; k < points_per_blade; ++k) {
-      const double share = (k + 0.5) / points_per_blade;
-      const BladePoint middle = blade_midline(length, bend.x, bend.y, share);
-      const glm::dvec3 along(towards * std::sin(angle * share), std::cos(angle * share));
-      const glm::dvec3 normal = glm::cross(across, along);
-      const double sine = glm::length(normal);  // the strip is not cut at right angles
-      if (sine <= 0) continue;
-      visit({root + glm::dvec3(middle.x, middle.y, middle.z),
-             2 * double(field.half_width[i]) * width[k] * length / points_per_blade * sine, normal.z / sine});
-    }
-  }
-}
-
-bool has_blades(const Prototype& prototype) {
-  return std::any_of(prototype.runs.begin(), prototype.runs.end(),
-                     [](const TriangleRun& run) { return run.surface == SurfaceClass::blade; });
-}
-
-/// Cuts a triangle into about equal pieces no wider than `widest`.
-void visit_triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, double weight, double widest, const Visit& visit) {
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double twice = glm::length(normal);
-  if (!(twice > 0)) return;
-  const double edge = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  const int parts = std::clamp(static_cast<int>(std::ceil(edge / widest)), 1, 64);
-  const double area = weight * twice / 2 / (parts * parts);
-  for (int i = 0; i < parts; ++i)
-    for (int j = 0; i + j < parts; ++j)
-      for (int turned = 0; turned < (i + j + 1 < parts ? 2 : 1); ++turned) {
-        const double u = (i + (1 + turned) / 3.0) / parts, v = (j + (1 + turned) / 3.0) / parts;
-        visit({a + u * (b - a) + v * (c - a), area, normal.z / twice});
-      }
-}
-
-void visit_plant(const Prototype& prototype, const Instance& instance, double widest, const Visit& visit) {
-  const double cosine = std::cos(instance.yaw), sine = std::sin(instance.yaw);
-  const auto corner = [&](std::uint32_t index) {
-    const std::uint32_t v = prototype.triangles[index];
-    const glm::dvec3 p(prototype.vertices.x[v], prototype.vertices.y[v], prototype.vertices.z[v]);
-    return instance.position + instance.scale * glm::dvec3(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
-  };
-  for (const TriangleRun& run : prototype.runs) {
-    // Stems are closed: half their surface counts (FORMULAS.md, plant area).
-    const double weight = run.surface == SurfaceClass::wood ? 0.5 : 1;
-    for (std::uint32_t i = 3 * run.first; i < 3 * (run.first + run.count); i += 3)
-      visit_triangle(corner(i), corner(i + 1), corner(i + 2), weight, widest, visit);
-  }
-}
-
-/// Every piece of grass in the scene, always in the same order.
-void visit_all(const World& world, double widest, const Visit& visit) {
-  for (std::size_t f = 0; f < world.grass.size(); ++f) {
-    GrassWind steady{};
-    steady.direction_x = static_cast<float>(world.wind->direction().x);
-    steady.direction_y = static_cast<float>(world.wind->direction().y);
-    steady.mean_bend = static_cast<float>(world.dynamics->grass[f].mean);
-    visit_blades(world.grass[f], steady, visit);
-  }
-  for (const Instance& instance : world.instances)
-    if (const Prototype& prototype = world.prototypes[instance.prototype];
-        instance.role == Instance::Role::plant && has_blades(prototype))
-      visit_plant(prototype, instance, widest, visit);
-}
+constexpr double cells_per_height = 32, most_columns = 65536;
+constexpr double smallest_cell = 0.015;  // m: in smaller ones blades are no longer scattered at random
+constexpr double border = 2;             // in heights of the grass: further away it hides less than 3 % of the sky
+constexpr double slab_height = 4.0 / 3;  // in cells, while there are
+constexpr double fewest_slabs = 12, most_slabs = 24;
 
 /// What bounds the grass, and how high it stands above the ground.
 struct Bounds {
@@ -122,7 +28,7 @@ struct Bounds {
 
 Bounds bounds_of(const World& world, const GroundHeight& ground) {
   Bounds bounds;
-  visit_all(world, std::numeric_limits<double>::infinity(), [&](const Piece& piece) {
+  visit_grass(world, std::numeric_limits<double>::infinity(), [&](const GrassPiece& piece) {
     bounds.low = glm::min(bounds.low, glm::dvec2(piece.position));
     bounds.high = glm::max(bounds.high, glm::dvec2(piece.position));
     bounds.height =
@@ -148,6 +54,45 @@ void level_ground(GrassArea& area, const GroundHeight& ground) {
   }
 }
 
+/// Collects, voxel by voxel, what a blade itself turns to the sky around a place on it.
+class OwnBlades {
+ public:
+  explicit OwnBlades(GrassArea& area) : area_(area), total_(area.projection.size() / sky_rings, 0) {
+    area.own.assign(area.projection.size(), 0);
+  }
+  void add(std::size_t voxel, const GrassPiece& piece, const float* turned) {
+    if (piece.blade != blade_) finish_blade();
+    blade_ = piece.blade;
+    Part& part = parts_[voxel];
+    part.area += static_cast<float>(piece.area);
+    for (int ring = 0; ring < sky_rings; ++ring) part.turned[ring] += static_cast<float>(piece.area) * turned[ring];
+  }
+  void finish() {
+    finish_blade();
+    for (std::size_t i = 0; i < area_.own.size(); ++i)
+      if (const float total = total_[i / sky_rings]; total > 0) area_.own[i] /= total;
+  }
+
+ private:
+  struct Part {
+    float area = 0;
+    std::array<float, sky_rings> turned{};
+  };
+  void finish_blade() {
+    for (const auto& [voxel, part] : parts_) {
+      total_[voxel] += part.area;
+      for (int ring = 0; ring < sky_rings; ++ring)
+        area_.own[voxel * sky_rings + std::size_t(ring)] += part.area * part.turned[std::size_t(ring)];
+    }
+    parts_.clear();
+  }
+
+  GrassArea& area_;
+  std::vector<float> total_;           // area in each voxel, m^2
+  std::map<std::size_t, Part> parts_;  // of the blade that is being visited, by voxel
+  std::uint32_t blade_ = 0;
+};
+
 }  // namespace
 
 double mean_projection(double normal_cosine, double direction_cosine) {
@@ -168,8 +113,9 @@ GrassArea measure_grass(const World& world) {
   const glm::dvec2 cells = glm::ceil(edges / area.cell);
   area.columns = static_cast<std::uint32_t>(cells.x);
   area.rows = static_cast<std::uint32_t>(cells.y);
-  area.slabs = slab_count;
-  area.slab = bounds.height / slab_count;
+  const double slabs = std::round(bounds.height / (slab_height * area.cell));
+  area.slabs = static_cast<std::uint32_t>(std::clamp(slabs, fewest_slabs, most_slabs));
+  area.slab = bounds.height / area.slabs;
   const glm::dvec2 middle = 0.5 * (bounds.low + bounds.high);
   area.extent = {middle - 0.5 * area.cell * cells, middle + 0.5 * area.cell * cells};
   level_ground(area, ground);
@@ -180,17 +126,21 @@ GrassArea measure_grass(const World& world) {
     for (int ring = 0; ring < sky_rings; ++ring)
       turned[tilt][ring] = static_cast<float>(mean_projection(double(tilt) / tilts, ring_cosine(ring)) /
                                               (area.cell * area.cell * area.slab));
-  area.projection.assign(slab_count * area.column_count() * sky_rings, 0);
-  visit_all(world, area.cell / 2, [&](const Piece& piece) {
+  area.projection.assign(area.slabs * area.column_count() * sky_rings, 0);
+  OwnBlades own(area);
+  visit_grass(world, area.cell / 2, [&](const GrassPiece& piece) {
     const glm::dvec2 place = (glm::dvec2(piece.position) - area.extent.low) / area.cell;
     const auto column = static_cast<std::size_t>(std::clamp(place.x, 0.0, cells.x - 1));
     const auto row = static_cast<std::size_t>(std::clamp(place.y, 0.0, cells.y - 1));
     const double above = piece.position.z - area.datum - double(area.ground[row * area.columns + column]);
-    const auto slab = static_cast<std::size_t>(std::clamp(above / area.slab, 0.0, slab_count - 1.0));
+    const auto slab = static_cast<std::size_t>(std::clamp(above / area.slab, 0.0, area.slabs - 1.0));
     const auto tilt = static_cast<std::size_t>(std::lround(std::min(std::abs(piece.normal_cosine), 1.0) * tilts));
-    float* to = &area.projection[((slab * area.rows + row) * area.columns + column) * sky_rings];
-    for (int ring = 0; ring < sky_rings; ++ring) to[ring] += static_cast<float>(piece.area) * turned[tilt][ring];
+    const std::size_t voxel = (slab * area.rows + row) * area.columns + column;
+    for (int ring = 0; ring < sky_rings; ++ring)
+      area.projection[voxel * sky_rings + std::size_t(ring)] += static_cast<float>(piece.area) * turned[tilt][ring];
+    own.add(voxel, piece, turned[tilt]);
   });
+  own.finish();
   return area;
 }
 

@@ -26,12 +26,15 @@ struct GrassArea {
   double datum = 0;               // m above the origin: zero of `ground`
   std::vector<float> ground;      // per column, at its middle, m above `datum`
   std::vector<float> projection;  // [slab][row][column][ring]: area turned to the ring per volume, 1/m
+  // As `projection`: of it, what belongs to the very blade that a place on a blade is on; the mean over all such
+  // places.
+  std::vector<float> own;  // empty: nothing
   std::size_t column_count() const { return std::size_t{columns} * rows; }
 };
 
 /// Grass fields in the mean wind, and plants of a mesh with blades at rest, stems and ears (half their surface)
-/// included. Cells are a sixteenth of the grass' height, but 3 cm or more, and as wide as it takes for 65,536 of them,
-/// with a border of twice the height around the grass.
+/// included. Cells are a thirty-second of the grass' height, but 1.5 cm or more, and as wide as it takes for 65,536 of
+/// them, with a border of twice the height around the grass.
 GrassArea measure_grass(const World& world);
 
 }  // namespace understory

@@ -147,6 +147,18 @@ float optical_depth(const GrassArea& area, std::uint32_t slab, int ring, const S
   return sum * path.length;
 }
 
+/// Of optical_depth, what does not count for a place on a blade around the node: its own blade, in the node's column.
+float own_depth(const GrassArea& area, std::uint32_t slab, int ring, const SlabPath& path, int column, int row) {
+  if (area.own.empty()) return 0;
+  int steps = 0;
+  for (; steps < path.steps; ++steps) {
+    const glm::vec2 at = glm::abs(path.offset * ((float(steps) + 0.5f) / float(path.steps)));
+    if (at.x > 0.5f || at.y > 0.5f) break;
+  }
+  const std::size_t voxel = (std::size_t{slab} * area.rows + std::size_t(row)) * area.columns + std::size_t(column);
+  return float(steps) * path.length * area.own[voxel * sky_rings + std::size_t(ring)];
+}
+
 void add_direction(const GrassArea& area, const SkyDirection& direction, GrassLayer& layer) {
   const SlabPath path(area, direction);
   OpenPlane far(area), near(area);
@@ -154,16 +166,19 @@ void add_direction(const GrassArea& area, const SkyDirection& direction, GrassLa
     const std::uint32_t level = direction.up ? layer.levels - 1 - k : k;
     tbb::parallel_for(0, int(area.rows), [&](int row) {
       for (int column = 0; column < int(area.columns); ++column) {
-        float open = 1;
+        float open = 1, from_blade = 1;
         if (k > 0) {
           const std::uint32_t slab = direction.up ? level : level - 1;
-          open = far.between(float(column) + path.offset.x, float(row) + path.offset.y);
-          if (const float depth = optical_depth(area, slab, direction.ring, path, column, row); depth > 0)
+          open = from_blade = far.between(float(column) + path.offset.x, float(row) + path.offset.y);
+          if (const float depth = optical_depth(area, slab, direction.ring, path, column, row); depth > 0) {
+            const float own = level > 0 ? own_depth(area, slab, direction.ring, path, column, row) : 0;
+            from_blade *= std::exp(std::min(own - depth, 0.0f));
             open *= std::exp(-depth);
+          }
         }
         near.at(column, row) = open;
         LayerLight& light = layer.light[(std::size_t(row) * area.columns + column) * layer.levels + level];
-        light = added(light, direction.share, open);
+        light = added(light, direction.share, from_blade);
       }
     });
     std::swap(far, near);

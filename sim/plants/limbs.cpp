@@ -16,7 +16,6 @@ constexpr std::uint32_t most_limbs = 384;
 constexpr float shortest_limb = 0.05f;       // share of the mesh's height
 constexpr float shortest_trunk = 0.3f;       // below this the wood is in pieces that tell nothing of its growth
 constexpr float ground_layer = 0.05f;        // share of the height: what starts here may stand on its own
-constexpr float same_corner = 1e-5f;         // share of the height: triangles written one by one round corners apart
 constexpr float joint = 0.02f;               // share of the height: wood this near touches
 constexpr float sample_spacing = 0.01f;      // share of the height
 constexpr float largest_flutter_arm = 0.5f;  // m: a canopy in one piece does not flap as one leaf

@@ -12,6 +12,8 @@ struct Pieces {
   std::vector<std::uint32_t> vertices, first;
   std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
 };
+/// Tolerance as a share of a plant's height: files that write triangles one by one round their corners apart.
+inline constexpr float same_corner = 1e-5f;
 inline constexpr std::uint32_t no_piece = 0xffffffffu;
 
 /// Triangles belong to one piece that share a vertex or a position, or have corners that differ by `tolerance` (m) at

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sim/grass.hpp"
+#include "sim/grass_pieces.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -83,6 +84,28 @@ TEST(GrassLayer, IsLitFromItsEdges) {
   EXPECT_NEAR(level_ground(30).y, 0, 1e-4);
 }
 
+TEST(GrassLayer, BladesDoNotShadeThemselves) {
+  const GrassArea grass = even_grass(41, [](auto, auto) { return 2.0; });
+  GrassArea own = grass;
+  own.own = own.projection;
+  for (float& share : own.own) share /= 2;
+  for (const bool open_below : {false, true}) {
+    const GrassLayer whole = light_grass(grass, open_below), spared = light_grass(own, open_below);
+    // On the ground there is no own blade.
+    EXPECT_EQ(node(spared, 20, 20, 0).above, node(whole, 20, 20, 0).above);
+    for (std::uint32_t level = 1; level + 1 < whole.levels; ++level) {
+      // Half the blades of the slab above, at most: e^(G LAI / 8 / 2 / cos) along the steepest ring and the flattest
+      // one that is spared for half a cell.
+      const double ratio = facing_up(node(spared, 20, 20, level)) / facing_up(node(whole, 20, 20, level));
+      EXPECT_GT(ratio, std::exp(2.0 / 2 / 8 / 2)) << level;
+      EXPECT_LT(ratio, std::exp(2.0 / 2 * 0.6 / 2)) << level;
+    }
+    if (!open_below) {
+      EXPECT_EQ(node(spared, 20, 20, whole.levels - 1).above, node(whole, 20, 20, whole.levels - 1).above);
+    }
+  }
+}
+
 TEST(GrassArea, MeanProjectionIsTheMeanOverTheAzimuth) {
   for (const double normal : {0.0, 0.3, 0.7, 1.0})
     for (const double direction : {0.05, 0.4, 0.9}) {
@@ -113,6 +136,45 @@ TEST(GrassArea, HoldsTheAreaOfAllBlades) {
       blades += 2 * blade_fullness * double(field.length[i]) * double(field.half_width[i]);
   // A strip whose width is not at right angles to its bend is a little narrower.
   EXPECT_NEAR(projected_area(measure_grass(world)), blades / 2, 0.04 * blades / 2);
+}
+
+/// Share of the area around a place on a blade that is the blade itself.
+double own_share(const GrassArea& area) {
+  double own = 0, all = 0;
+  for (std::size_t i = 0; i < area.own.size(); ++i) {
+    EXPECT_LE(area.own[i], area.projection[i] * 1.0001f);
+    own += double(area.own[i]);
+    all += double(area.projection[i]);
+  }
+  return own / all;
+}
+
+TEST(GrassArea, ALoneBladeIsAllItsOwn) {
+  Scene scene = small_meadow();
+  scene.plants.clear();
+  scene.species.clear();
+  scene.grass.front().density = 40;  // far fewer blades than columns
+  EXPECT_GT(own_share(measure_grass(build_world(scene))), 0.9);
+  scene.grass.front().density = 20'000;
+  EXPECT_LT(own_share(measure_grass(build_world(scene))), 0.5);
+}
+
+TEST(GrassArea, BladesOfAMeshAreWholeThoughTheirTrianglesAreWrittenOneByOne) {
+  UNDERSTORY_NEEDS_DATA();
+  SpeciesSource wheat;
+  wheat.name = "wheat";
+  wheat.mesh = data_folder() / "plants/grass_wheat_6x6.glb";
+  wheat.leaf_materials.clear();
+  wheat.blade_materials = {"leaf*", "blade*"};
+  Scene scene = one_plant(wheat);
+  std::uint32_t blades = 0, triangles = 0, last = 0xffffffffu;
+  visit_grass(build_world(scene), 1e9, [&](const GrassPiece& piece) {
+    blades += piece.blade != last;
+    last = piece.blade;
+    ++triangles;
+  });
+  EXPECT_GT(triangles, 250'000u);
+  EXPECT_LT(blades, 20'000u);
 }
 
 TEST(GrassArea, OfASceneWithoutGrassIsEmpty) {
