@@ -152,39 +152,59 @@ class FaceSide {
   double sum_ = 0, count_ = 0;
 };
 
-/// Traces one ray from each of the places `first` to `last` - 1 of a side.
-struct RayBundle {
-  std::vector<glm::vec2> places;
-  std::vector<SurfacePoint> starts;
-  std::vector<glm::vec3> directions;
-  std::vector<std::uint8_t> open;
-
+/// Rays of a side: what each of them sees of the sky.
+class RayBundle {
+ public:
+  explicit RayBundle(Sky sky) : sky_(sky) {}
   void add(const FaceSide& side, glm::vec2 place, glm::vec2 random) {
     places.push_back(place);
-    starts.push_back(side.point(place));
-    directions.push_back(side.direction(random));
+    starts_.push_back(side.point(place));
+    directions_.push_back(side.direction(random));
   }
+  /// Finds which rays get out.
   void trace(const RestSurface& surface) {
-    open.resize(starts.size());
-    surface.open(starts, directions, open);
+    open.resize(places.size());
+    surface.open(starts_, directions_, open);
   }
-  double sees_sky(std::size_t ray, Sky sky) const {
-    return open[ray] && (sky == Sky::sphere || directions[ray].z > 0) ? 1 : 0;
+  /// The same of rays that may meet sky only, less than half of them under the dome; `open` is not told of the others.
+  void trace_towards_sky(const RestSurface& surface) {
+    std::vector<SurfacePoint> starts;
+    std::vector<glm::vec3> directions;
+    for (std::size_t ray = 0; ray < places.size(); ++ray)
+      if (may_see_sky(ray)) starts.push_back(starts_[ray]), directions.push_back(directions_[ray]);
+    std::vector<std::uint8_t> found(starts.size());
+    surface.open(starts, directions, found);
+    open.assign(places.size(), 0);
+    for (std::size_t ray = 0, next = 0; ray < places.size(); ++ray)
+      if (may_see_sky(ray)) open[ray] = found[next++];
   }
+  double sees_sky(std::size_t ray) const { return open[ray] && may_see_sky(ray) ? 1 : 0; }
+
+  std::vector<glm::vec2> places;
+  std::vector<std::uint8_t> open;
+
+ private:
+  bool may_see_sky(std::size_t ray) const { return sky_ == Sky::sphere || directions_[ray].z > 0; }
+
+  Sky sky_;
+  std::vector<SurfacePoint> starts_;
+  std::vector<glm::vec3> directions_;
 };
 
-/// Every ray counts: `first` to `last` - 1 of the side's rays. True when one of them got out.
+/// Every ray counts: `first` to `last` - 1 of the side's rays. `asked`: whether one of them got out, to anywhere.
 bool sample_everywhere(const RestSurface& surface, FaceSide& side, std::size_t first, std::size_t last, Sky sky,
-                       std::uint32_t seed) {
-  RayBundle bundle;
+                       std::uint32_t seed, bool asked) {
+  RayBundle bundle(sky);
   for (std::size_t i = first; i < last; ++i) {
     const auto index = static_cast<std::uint32_t>(i);
     bundle.add(side, even_place(index, seed), scrambled_sobol(index, seed + 1));
   }
-  bundle.trace(surface);
-  for (std::size_t ray = 0; ray < bundle.places.size(); ++ray)
-    side.add(bundle.places[ray], bundle.sees_sky(ray, sky), 1);
-  return std::find(bundle.open.begin(), bundle.open.end(), 1) != bundle.open.end();
+  if (asked)
+    bundle.trace(surface);
+  else
+    bundle.trace_towards_sky(surface);
+  for (std::size_t ray = 0; ray < bundle.places.size(); ++ray) side.add(bundle.places[ray], bundle.sees_sky(ray), 1);
+  return asked && std::find(bundle.open.begin(), bundle.open.end(), 1) != bundle.open.end();
 }
 
 /// Only places that are seen count: those whose first ray gets out. Returns the rays spent.
@@ -194,7 +214,7 @@ std::size_t sample_where_seen(const RestSurface& surface, FaceSide& side, std::s
   constexpr std::size_t hardly = 64;  // one of so many
   std::size_t spent = 0, seen = 0;
   for (std::uint32_t index = 0; spent < rays;) {
-    RayBundle views, more;
+    RayBundle views(sky), more(sky);
     const std::size_t round = index == 0 ? first_rays : std::max<std::size_t>((rays - spent) / 2, 16);
     for (std::size_t i = 0; i < round; ++i, ++index)
       views.add(side, even_place(index, seed), scrambled_sobol(index, seed + 1));
@@ -203,18 +223,18 @@ std::size_t sample_where_seen(const RestSurface& surface, FaceSide& side, std::s
       if (views.open[view])
         for (std::size_t i = 0; i < per_place; ++i)
           more.add(side, views.places[view],
-                   scrambled_sobol(static_cast<std::uint32_t>(seen * per_place + more.starts.size()), seed + 2));
-    more.trace(surface);
-    for (std::size_t ray = 0; ray < more.starts.size(); ray += per_place) {
+                   scrambled_sobol(static_cast<std::uint32_t>(seen * per_place + more.places.size()), seed + 2));
+    more.trace_towards_sky(surface);
+    for (std::size_t ray = 0; ray < more.places.size(); ray += per_place) {
       double sum = 0;
-      for (std::size_t i = 0; i < per_place; ++i) sum += more.sees_sky(ray + i, sky);
+      for (std::size_t i = 0; i < per_place; ++i) sum += more.sees_sky(ray + i);
       side.add(more.places[ray], sum / per_place, per_place);
     }
-    seen += more.starts.size() / per_place;
-    spent += round + more.starts.size();
+    seen += more.places.size() / per_place;
+    spent += round + more.places.size();
     // Inside a stem. What is seen of it, if it is open somewhere, would say too little about the rest.
     if (index >= hardly && seen * hardly < index) {
-      sample_everywhere(surface, side, 0, first_rays, sky, seed + 3);
+      sample_everywhere(surface, side, 0, first_rays, sky, seed + 3, false);
       return spent + first_rays;
     }
   }
@@ -227,8 +247,8 @@ std::size_t sample_side(const RestSurface& surface, FaceSide& side, bool wood, s
                         std::uint32_t seed) {
   if (wood) return sample_where_seen(surface, side, rays, sky, seed);
   const std::size_t first = std::min(rays, first_rays);
-  if (!sample_everywhere(surface, side, 0, first, sky, seed) || rays <= first_rays) return first;
-  sample_everywhere(surface, side, first_rays, rays, sky, seed);
+  if (!sample_everywhere(surface, side, 0, first, sky, seed, true) || rays <= first_rays) return first;
+  sample_everywhere(surface, side, first_rays, rays, sky, seed, false);
   return rays;
 }
 
