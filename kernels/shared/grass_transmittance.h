@@ -1,7 +1,7 @@
 // Visibility among grass from a grid of the light there (GrassLayer in sim/grass_layer.hpp). Each node holds
 //   V_c(n) = (1 + n_z) (above + zenith n_z) + x n_x + y n_y + below (1 - n_z)
-// interpolated between columns and levels. What comes out is V_c over the open dome's factor, so
-// that the dome multiplies it like everything else; under an open lower sky (below > 0) it is V_c itself.
+// interpolated between columns and levels. What comes out is V_c over the open dome's factor, so that the dome
+// multiplies it like everything else; under an open lower sky (below > 0) it is V_c itself.
 #ifndef UNDERSTORY_GRASS_TRANSMITTANCE_H
 #define UNDERSTORY_GRASS_TRANSMITTANCE_H
 
