@@ -93,16 +93,14 @@ static inline FourNumbers light_between(const GrassColumns columns, private cons
 #endif
 
 #ifdef BELOW
-// The light from below, one number a node.
-static inline real below_between(const GrassLayerGrid grid, global const float* below, bits node, real right, real high,
-                                 real above) {
-  const bits across = (bits)(grid.levels), along = (bits)(grid.levels * grid.columns), one = (bits)(1u);
-#define LEFT(node) \
-  fma(high, GATHER(real, below, (node) + along, ) - GATHER(real, below, node, ), GATHER(real, below, node, ))
-  const real lower_left = LEFT(node), upper_left = LEFT(node + one);
-  const real lower_right = LEFT(node + across), upper_right = LEFT(node + across + one);
-  const real lower = fma(right, lower_right - lower_left, lower_left);
-  const real upper = fma(right, upper_right - upper_left, upper_left);
+// The light from below. `below`: of each node, of the one above it, and of these two a row higher.
+static inline real below_between(const GrassLayerGrid grid, global const float* below, private const uint* node,
+                                 real right, real high, real above) {
+  const FourNumbers left = four_numbers(below, node), next = four_numbers(below + 4 * grid.levels, node);
+  const real left_lower = fma(high, left.z - left.x, left.x), left_upper = fma(high, left.w - left.y, left.y);
+  const real right_lower = fma(high, next.z - next.x, next.x), right_upper = fma(high, next.w - next.y, next.y);
+  const real lower = fma(right, right_lower - left_lower, left_lower);
+  const real upper = fma(right, right_upper - left_upper, left_upper);
   return fma(above, upper - lower, lower);
 }
 #endif
@@ -137,7 +135,7 @@ kernel void shade_grass_transmittance(global const float* position_x, global con
       GrassLight light = {found.x, found.y, found.z, found.w, REAL(0.0)};
       const real a = LOAD(normal_x, i), b = LOAD(normal_y, i), c = LOAD(normal_z, i);
 #ifdef BELOW
-      light.below = below_between(grid, below, LOAD(places.first, group) / (bits)(4u), right, high, above);
+      light.below = below_between(grid, below, places.first + group * W, right, high, above);
       v = PICK(within, as_visibility(grass_light(light, a, b, c)), v);
 #else
       v = PICK(within, grass_transmittance(light, a, b, c), v);

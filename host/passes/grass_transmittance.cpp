@@ -18,9 +18,15 @@ std::vector<float> node_numbers(const GrassLayer& layer) {
   return numbers;
 }
 
+/// What comes from below of every node, of the one above it, and of these two a row higher: four columns are two loads.
 std::vector<float> below_numbers(const GrassLayer& layer, bool open_below) {
   std::vector<float> numbers;
-  for (std::size_t i = 0; open_below && i < layer.light.size(); ++i) numbers.push_back(layer.light[i].below);
+  if (!open_below) return numbers;
+  const std::size_t count = layer.light.size(), row = std::size_t{layer.columns} * layer.levels;
+  numbers.reserve(4 * count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::size_t node : {i, i + 1, i + row, i + row + 1})
+      numbers.push_back(layer.light[std::min(node, count - 1)].below);
   return numbers;
 }
 

@@ -19,7 +19,7 @@ class GrassLayerTable {
   GrassLayerGrid grid(glm::dvec3 eye) const;
   const Buffer<float>& ground() const { return ground_; }  // of each column and of the one a row higher
   const Buffer<float>& nodes() const { return nodes_; }    // four numbers each
-  const Buffer<float>& below() const { return below_; }    // one each; empty unless open_below
+  const Buffer<float>& below() const { return below_; }    // four each; empty unless open_below
   bool open_below() const { return below_.size() > 0; }
 
  private:
