@@ -1,10 +1,11 @@
 // `obscurance-line`: the open share of the ball around each fragment from lines along the sight (Loos & Sloan 2010
-// section 4.1), over that of a flat surface with the same lines. A line whose pixel lies outside the image counts for
-// neither. -DNORMALS: clamped by the tangent plane (4.4); -DCOSINE: of the ball on top of that plane; -DQUADRATIC:
-// falloff 1 - r^2; -DTHICKNESS: surfaces end (4.3); -DRADII=1, 2: product or minimum of two radii. One work-item per W
-// fragments; planes are padded.
+// section 4.1), over that of a flat surface with the same lines. Of each line four neighbouring pixels of a row are
+// asked and their mean taken. A line whose point lies outside the image counts for neither. -DNORMALS: clamped by the
+// tangent plane (4.4); -DCOSINE: of the ball on top of that plane; -DQUADRATIC: falloff 1 - r^2; -DTHICKNESS: surfaces
+// end (4.3); -DRADII=1, 2: product or minimum of two radii. One work-item per W fragments; planes are padded.
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/obscurance_entry.h"
+#include "kernels/shared/obscurance_row.h"
 
 #ifdef QUADRATIC
 #define FALLOFF 1
@@ -19,32 +20,66 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
   const Turn turn = turn_of(at, to);
   const BallVector middle = middle_of_ball(to);
 #ifdef THICKNESS
-  const real deepest = (real)(2.0f * setting->thickness) * ball.per_radius, per_deepest = REAL(1.0) / deepest;
+  // Thicker than 1024 is as good as endless, and the sums keep digits enough.
+  const real unit = at_most((real)(2.0f * setting->thickness) * ball.per_radius, REAL(1024.0));
+#else
+  const real unit = REAL(1.0);
+#endif
+  const real per_unit = REAL(1.0) / unit;
+  const RowDepths depths = row_depths(to, ball, (real)(radius), per_unit, setting);
+  const int any_single = ANY(depths.single);
+#ifdef THICKNESS
+  const real nearest = fma(-middle.z, per_unit, REAL(1.0));  // of backs: of surfaces they are a unit behind
+#else
+  const real nearest = -middle.z;
 #endif
   real open = REAL(0.0), flat = REAL(0.0);
   truth left = (truth)(0);
   for (uint row = 0; row < count; ++row) {
-    const real half_length = (real)(rows[row].z);
+    const real half_length = (real)(rows[row].z) * per_unit;
     const DiscPoint goal = turned(turn, middle, (real)(rows[row].x), (real)(rows[row].y));
-    const Neighbour next = neighbour_at(depth, at, ball, goal.x, goal.y, setting);
+    const Row next = row_at(depth, at, ball, depths.single, any_single, goal.x, goal.y, setting);
     const real share = PICK(next.inside, (real)(rows[row].share), REAL(0.0));
-    const real seen = seen_depth(to, ball, next.x, next.y, next.depth) - middle.z;
-#ifdef NORMALS
-    const real plane = plane_depth(to, ball, next.x, next.y).depth - middle.z;
-    flat = fma(share, line_integral(half_length, plane, FALLOFF), flat);
+    const real across = fma(to.sight_x, goal.x, to.sight_y * goal.y);
+    const real plane = fma(per_unit, across, -fma(depths.rise_x, goal.x, depths.rise_y * goal.y));
+    // What is seen beyond the ball hides nothing of it, however far in front of the plane.
+    const real beyond = fma(-across, depths.radius_of_step, depths.radius_of_step);
+#if defined(NORMALS) && !defined(COSINE)
+    const real end = at_least(at_most(plane, half_length), -half_length);
 #else
-    const real plane = FAR_AWAY;
-    flat = fma(share, line_integral(half_length, REAL(0.0), FALLOFF), flat);
+    const real end = half_length;  // of the ball on top of it, the plane cuts nothing
 #endif
-    real length = line_integral(half_length, at_most(seen, plane), FALLOFF);
+    real a = fma(depths.along_x, next.x, depths.along_y * next.y);
+    real scale = fma(depths.scale_of_a, a, depths.base_scale);
+    a += plane + nearest;
+    real sum = REAL(0.0);
+    for (int k = 0; k < 4; ++k) {
+      const real step = next.depths.of[k] - to.depth;
+      const real seen = PICK(step > beyond, FAR_AWAY, fma(step, scale, a));
 #ifdef THICKNESS
-    length += behind_integral(half_length, seen, deepest, per_deepest, plane, FALLOFF);
+      sum = add_hidden(sum, half_length, seen, end, FALLOFF);
+#else
+      sum += line_integral(half_length, at_most(seen, end), FALLOFF);
+#endif
+      a += depths.next_a;
+      scale += depths.next_scale;
+    }
+#ifdef THICKNESS
+    const real length = fma(REAL(-0.125), sum, line_integral(half_length, end, FALLOFF));
+#else
+    const real length = REAL(0.25) * sum;
 #endif
     open = fma(share, length, open);
+#ifdef NORMALS
+    flat = fma(share, line_integral(half_length, end, FALLOFF), flat);
+#else
+    flat = fma(share, line_integral(half_length, REAL(0.0), FALLOFF), flat);
+#endif
     left |= NOT(next.inside);
   }
   flag_samples(validity, item, ball, left, drawn, setting);
-  return open_share(open, flat);
+  const real size = FALLOFF ? unit * unit * unit : unit;
+  return open_share(open * size, flat * size);
 }
 
 kernel void shade_obscurance_line(global const float* depth, global const float* normal_x, global const float* normal_y,

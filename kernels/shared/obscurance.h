@@ -119,20 +119,24 @@ SHARED real line_integral(real half_length, real depth, int quadratic) {
   return fma(end, fma(end * end, REAL(-0.33333333333333333), square), REAL(0.66666666666666667) * square * half_length);
 }
 
-/// What is open, in front of the plane, behind a surface at `depth` whose back is spread evenly over as much as
-/// `deepest` behind it: section 4.3 with openness that grows evenly instead of a step. Of leaves behind leaves nothing
-/// is known but that the farther behind the first, the less they hide. `per_deepest`: 1/deepest.
-SHARED real behind_integral(real half_length, real depth, real deepest, real per_deepest, real plane, int quadratic) {
-  const real end = at_least(at_most(plane, half_length), -half_length);
-  const real from = at_least(at_most(depth, end), -half_length),
-             to = at_least(at_most(depth + deepest, end), -half_length);
-  if (!quadratic) return end - to + REAL(0.5) * (to - from) * per_deepest * ((from - depth) + (to - depth));
+/// `sum` and twice what a surface hides of a line from where it enters the ball to `end`, within the line: all at the
+/// surface, evenly less up to a unit of length behind it, at `back`, where it ends. Section 4.3 with openness that
+/// grows evenly instead of a step: of leaves behind leaves nothing is known but that the farther behind the first, the
+/// less they hide. All lengths in that unit.
+SHARED real add_hidden(real sum, real half_length, real back, real end, int quadratic) {
+  if (!quadratic) {
+    // The antiderivative of 1 - z is -(1 - z)^2/2.
+    const real first = at_least(at_most(back + half_length, REAL(1.0)), REAL(0.0));
+    const real last = at_least(at_most(back - end, REAL(1.0)), REAL(0.0));
+    return fma(-last, last, fma(first, first, sum));
+  }
+  const real from = at_least(at_most(back - REAL(1.0), end), -half_length),
+             to = at_least(at_most(back, end), -half_length);
   // Of z (half^2 - z^2), for the part that grows.
   const real square = half_length * half_length, f2 = from * from, t2 = to * to;
   const real moment = REAL(0.25) * (t2 - f2) * (square + square - t2 - f2);
   const real length = line_integral(half_length, to, 1) - line_integral(half_length, from, 1);
-  return line_integral(half_length, end, 1) - line_integral(half_length, to, 1) +
-         fma(-depth, length, moment) * per_deepest;
+  return fma(REAL(2.0), fma(back, length, -moment), sum);
 }
 
 /// As line_integral with constant falloff, in front of depths that are spread evenly over mean +- spread (section 4.2):

@@ -121,6 +121,61 @@ TEST(Obscurance, EveryOptionIsTheReference) {
   }
 }
 
+TEST(Obscurance, OneLinePixelsOfSmallBallsAndNarrowImagesAreTheReference) {
+  UNDERSTORY_NEEDS_DEVICE();
+  NearField options;
+  options.falloff = "cosine";
+  options.thickness = 0.3;
+  // 3 pixels; and 256 fragments, as many as the plane holds, in rows shorter than those that lines read.
+  options.radius = 0.15;
+  expect_reference(image_of(odd_view(45, 17, 0), patchwork(3, 4, 0.2)), {true, 5}, options);
+  options.radius = 0.6;
+  expect_reference(image_of(odd_view(2, 128, 0), patchwork(3, 4, 0.2)), {true, 7}, options);
+}
+
+TEST(Obscurance, LinesTakeTheMeanOfFourPixels) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Device device;
+  // A comb of columns, two pixels wide, far in front of a wall: of four neighbours in a row two are closed, whatever
+  // the line, so that the wall's every pixel is half open; lines by single pixels would leave noise.
+  const ObscuranceView view = odd_view(96, 40, 0);
+  const reference::DepthImage comb = image_of(view, [&](const reference::PixelRay& ray) {
+    const int column = static_cast<int>(std::floor(ray.origin.x * view.focal + view.centre_x));
+    return SurfacePoint{column / 2 % 2 == 0 ? 2.0 : 9.0, {0, 0, -1}};
+  });
+  NearField options;
+  options.radius = 0.5;
+  for (const char* falloff : {"constant", "quadratic", "cosine"}) {
+    options.falloff = falloff;
+    const Shaded shaded = shade_once(device, comb, {true, 5}, options);
+    for (int y = 11; y < 29; ++y)
+      for (int x = 14; x < 82; ++x)
+        EXPECT_NEAR(shaded.visibility[static_cast<std::size_t>(y * 96 + x)], x / 2 % 2 == 0 ? 1 : 0.5, 1e-5) << x;
+  }
+}
+
+TEST(Obscurance, WhatIsBeyondTheBallHidesNothing) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Device device;
+  // A floor seen at a low angle up to the middle of the image, from there on a wall far behind it, in front of where
+  // the floor would go on.
+  const ObscuranceView view = odd_view(96, 64, 0.9);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0, -1, -0.15));
+  const reference::DepthImage image = image_of(view, [&](const reference::PixelRay& ray) {
+    return ray.direction.y > 0.2 ? plane_surface({0, 1, 2}, normal)(ray) : SurfacePoint{30, {0, 0, -1}};
+  });
+  NearField options;
+  options.radius = 0.4;
+  for (const char* falloff : {"constant", "cosine"}) {
+    options.falloff = falloff;
+    const Shaded shaded = shade_once(device, image, {true, 12}, options);
+    for (std::size_t i = 0; i < shaded.visibility.size(); ++i)
+      if (image.depth[i] < 20) {
+        EXPECT_NEAR(shaded.visibility[i], 1, 1e-3) << i % 96 << ' ' << i / 96;
+      }
+  }
+}
+
 TEST(Obscurance, FlatSurfacesAreOpenWithEverySampleSet) {
   UNDERSTORY_NEEDS_DEVICE();
   Device device;

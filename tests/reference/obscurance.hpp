@@ -43,7 +43,7 @@ inline double pattern_turn(int x, int y) {
 struct Obscurance {
   double value = 1;
   double nearest_edge = 1;  // of a sample to the border between two pixels, pixels: what float may round otherwise
-  double doubt = 0;         // share of points that are about as deep as what is seen
+  double doubt = 0;  // share of points about as deep as what is seen, of lines where that is about to leave the ball
 };
 
 /// The ball around a pixel's fragment: its frame, and the neighbour that a point of the disc falls on.
@@ -69,10 +69,7 @@ class Ball {
     bool beyond_plane = false;
   };
   Seen look(double x, double y, double& nearest_edge) const {
-    // A point of the disc moved along the fragment's ray to the fragment's own depth, then seen.
-    glm::dvec3 step = radius_ * (x * right + y * down);
-    step -= step.z * pixel_ray(image_.view, x_, y_).direction;
-    const glm::dvec2 offset = glm::dvec2(step) / radius_ * pixels;
+    const glm::dvec2 offset = image_offset(x, y);
     Seen seen;
     const glm::dvec2 cell = glm::floor(offset + 0.5);
     for (int axis = 0; axis < 2; ++axis)
@@ -95,6 +92,42 @@ class Ball {
     return seen;
   }
 
+  /// Of the four pixels about the disc's point (x, y): how deep the line through that point first meets a surface along
+  /// the sight, radii, were it parallel to the tangent plane through what the pixel shows.
+  struct Row {
+    bool inside = false;
+    double seen[4] = {};
+    double plane = 0;  // of the line itself
+    bool doubtful = false;
+  };
+  Row look_along_row(double x, double y, bool normals, double& nearest_edge) const {
+    const glm::dvec2 offset = image_offset(x, y), goal = glm::dvec2(x_ + 0.5, y_ + 0.5) + offset;
+    const int width = image_.view.width, height = image_.view.height;
+    const bool single = pixels < 4 || width < 4;
+    const double start = single ? goal.x : goal.x - 1.5;
+    for (const double distance : {std::abs(start - std::round(start)), std::abs(goal.y - std::round(goal.y)),
+                                  std::abs(goal.x), std::abs(goal.x - width), std::abs(pixels - 4)})
+      nearest_edge = std::min(nearest_edge, distance);
+    Row row;
+    row.inside = goal.x >= 0 && goal.y >= 0 && goal.x < width && goal.y < height;
+    if (!row.inside) return row;
+    const int first = std::clamp(static_cast<int>(std::floor(start)), 0, single ? width - 1 : width - 4);
+    const glm::dvec3 to_line = x * right + y * down;
+    const double steepness = std::min(facing(), -1e-3) / glm::length(pixel_ray(image_.view, x_, y_).direction);
+    row.plane = -glm::dot(normal, to_line) / steepness;
+    const double beyond = (1 - glm::dot(sight, glm::dvec3(offset / pixels, 0))) * radius_ * sight.z;
+    for (int k = 0; k < 4; ++k) {
+      const int column = single ? first : first + k, line = static_cast<int>(std::floor(goal.y));
+      const double depth = image_.depth_at(column, line), step = depth - centre.z;
+      const glm::dvec3 there = (pixel_ray(image_.view, column, line).at(depth) - centre) / radius_;
+      row.doubtful = row.doubtful || std::abs(step - beyond) < 1e-4 * radius_;
+      row.seen[k] = step > beyond ? 1e6
+                    : normals     ? row.plane + glm::dot(normal, there) / steepness
+                                  : glm::dot(sight, there);
+    }
+    return row;
+  }
+
   /// Cosine between the normal and the fragment's own ray, times that ray's length; negative.
   double facing() const { return glm::dot(normal, pixel_ray(image_.view, x_, y_).direction); }
 
@@ -102,6 +135,14 @@ class Ball {
   double pixels = 0;
 
  private:
+  /// Pixels from the fragment: a point of the disc moved along the fragment's ray to the fragment's own depth, then
+  /// seen.
+  glm::dvec2 image_offset(double x, double y) const {
+    glm::dvec3 step = x * right + y * down;
+    step -= step.z * pixel_ray(image_.view, x_, y_).direction;
+    return glm::dvec2(step) * pixels;
+  }
+
   const DepthImage& image_;
   int x_, y_;
   double radius_;
@@ -157,12 +198,15 @@ inline Obscurance line_obscurance(const DepthImage& image, int x, int y, const O
     const double whole = open_line(half, 9, 0, 9, quadratic);
     const double share = double{quadratic ? sample.quadratic_share : sample.constant_share} / whole;
     double edge = 1;
-    const Ball::Seen seen = ball.look(c * p.x + s * p.y + filled.middle.x, s * p.x - c * p.y + filled.middle.y, edge);
+    const Ball::Row row =
+        ball.look_along_row(c * p.x + s * p.y + filled.middle.x, s * p.x - c * p.y + filled.middle.y, normals, edge);
     if (p != glm::dvec2(0) || filled.size < 1) result.nearest_edge = std::min(result.nearest_edge, edge);
-    if (!seen.inside) continue;
-    const double plane = normals ? seen.plane - filled.middle.z : 1e6;
-    open += share * open_line(half, seen.depth - filled.middle.z, options.thickness / radius, plane, quadratic);
+    if (!row.inside) continue;
+    const double plane = normals ? row.plane - filled.middle.z : 1e6;
+    for (const double seen : row.seen)
+      open += share / 4 * open_line(half, seen - filled.middle.z, options.thickness / radius, plane, quadratic);
     flat += share * open_line(half, normals ? plane : 0, 0, 1e6, quadratic);
+    if (row.doubtful) result.doubt += share;
   }
   result.value = flat > 1e-6 ? std::clamp(open / flat, 0.0, 1.0) : 1;
   return result;

@@ -1,0 +1,163 @@
+// Four neighbouring pixels of a row that stand for a line of `obscurance-line`: where they are, what they show, and
+// what that hides of the line. OpenCL only.
+#ifndef UNDERSTORY_OBSCURANCE_ROW_H
+#define UNDERSTORY_OBSCURANCE_ROW_H
+
+#include "kernels/shared/obscurance_fragments.h"
+
+/// Below this radius in the image, pixels, a row would reach over too much of the ball: one pixel stands for a line.
+#define LEAST_ROW_RADIUS REAL(4.0)
+
+/// How deep what pixels show is along the sight, in units of `unit` radii. With `step`, m, how far the camera z of the
+/// pixel (x, y) pixels from the fragment is beyond the fragment's:
+///   step (base_scale + scale_of_a a) + a,  a = along_x x + along_y y.
+/// From the fragment on; with -DNORMALS from the tangent plane on, 0 for all that the plane itself shows: as far in
+/// front of it as it is, a surface is carried along the plane to the line that asks.
+typedef struct {
+  real along_x, along_y;  // 1/pixel
+  real base_scale;        // 1/m
+  real scale_of_a;        // 1/m
+  real next_a;            // of a, from a pixel of a row to the next; 0 where one pixel stands for the line
+  real next_scale;        // of what `step` is multiplied with, likewise
+  real rise_x, rise_y;    // of a, for a radius in the image
+  real radius_of_step;    // `step` of what is a radius beyond the fragment on its own ray, m
+  truth single;           // one pixel stands for a line
+} RowDepths;
+
+SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, const ObscuranceSetting* setting) {
+  RowDepths row;
+#ifdef NORMALS
+  const real per_facing = per_unit * to.ray_length / to.facing;
+  row.rise_x = to.normal_x * per_facing;
+  row.rise_y = to.normal_y * per_facing;
+#else
+  row.rise_x = per_unit * to.sight_x;
+  row.rise_y = per_unit * to.sight_y;
+#endif
+  row.along_x = row.rise_x * ball.per_pixel;
+  row.along_y = row.rise_y * ball.per_pixel;
+  row.base_scale = per_unit * to.ray_length * ball.per_radius;
+  row.scale_of_a = ball.widening * ball.per_radius;
+  row.single = (ball.pixels < LEAST_ROW_RADIUS) | ((whole)(setting->width) < (whole)(4));
+  row.next_a = PICK(row.single, REAL(0.0), row.along_x);
+  row.next_scale = row.next_a * row.scale_of_a;
+  row.radius_of_step = radius * to.sight_z;
+  return row;
+}
+
+/// Depths of four pixels, m, for each lane.
+typedef struct {
+  real of[4];
+} RowPixels;
+
+#ifdef __clang__
+typedef float4 loose_float4 __attribute__((aligned(4)));
+#define FOUR_FROM(plane, index) (*(global const loose_float4*)((plane) + (index)))
+#else
+#define FOUR_FROM(plane, index) vload4(0, (plane) + (index))
+#endif
+
+// An end to what the compiler merges: it would make the shuffles of both steps one, of a dozen steps with a table each.
+#if defined(__AVX512F__) && W == 16
+#define SETTLED(vector) __asm__("" : "+v"(vector))
+#else
+#define SETTLED(vector)
+#endif
+
+// Two vectors' elements by turns, or by pairs, within every four: what transposes four vectors without crossing lanes.
+#if W == 4
+#define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3))
+#elif W == 8
+#define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3), quarter(4, 5, 6, 7))
+#elif W == 16
+#define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3), quarter(4, 5, 6, 7), quarter(8, 9, a, b), quarter(c, d, e, f))
+#endif
+
+/// plane[index] to plane[index + 3]. One load a lane, of all four: among leaves a pixel says all or nothing, and what
+/// four cost is nearly what one costs.
+SHARED RowPixels row_pixels(global const float* plane, whole index) {
+  RowPixels row;
+#if W == 1
+  const float4 four = FOUR_FROM(plane, index);
+  row.of[0] = four.x;
+  row.of[1] = four.y;
+  row.of[2] = four.z;
+  row.of[3] = four.w;
+#else
+#define FIRST(i, j, k, l) FOUR_FROM(plane, index.s##i)
+#define SECOND(i, j, k, l) FOUR_FROM(plane, index.s##j)
+#define THIRD(i, j, k, l) FOUR_FROM(plane, index.s##k)
+#define FOURTH(i, j, k, l) FOUR_FROM(plane, index.s##l)
+  real a = (real)BY_QUARTERS(FIRST), b = (real)BY_QUARTERS(SECOND), c = (real)BY_QUARTERS(THIRD),
+       d = (real)BY_QUARTERS(FOURTH);
+  SETTLED(a);
+  SETTLED(b);
+  SETTLED(c);
+  SETTLED(d);
+#undef FIRST
+#undef SECOND
+#undef THIRD
+#undef FOURTH
+#define LOW(i, j, k, l) x.s##i, y.s##i, x.s##j, y.s##j
+#define HIGH(i, j, k, l) x.s##k, y.s##k, x.s##l, y.s##l
+#define LOW_PAIRS(i, j, k, l) x.s##i, x.s##j, y.s##i, y.s##j
+#define HIGH_PAIRS(i, j, k, l) x.s##k, x.s##l, y.s##k, y.s##l
+  real x = a, y = b;
+  real ab_low = (real)BY_QUARTERS(LOW), ab_high = (real)BY_QUARTERS(HIGH);
+  x = c, y = d;
+  real cd_low = (real)BY_QUARTERS(LOW), cd_high = (real)BY_QUARTERS(HIGH);
+  SETTLED(ab_low);
+  SETTLED(ab_high);
+  SETTLED(cd_low);
+  SETTLED(cd_high);
+  x = ab_low, y = cd_low;
+  row.of[0] = (real)BY_QUARTERS(LOW_PAIRS);
+  row.of[1] = (real)BY_QUARTERS(HIGH_PAIRS);
+  x = ab_high, y = cd_high;
+  row.of[2] = (real)BY_QUARTERS(LOW_PAIRS);
+  row.of[3] = (real)BY_QUARTERS(HIGH_PAIRS);
+#undef LOW
+#undef HIGH
+#undef LOW_PAIRS
+#undef HIGH_PAIRS
+#endif
+  return row;
+}
+
+/// What the row about a point of the disc shows.
+typedef struct {
+  real x, y;         // of its first pixel from the fragment, pixels
+  RowPixels depths;  // camera z, m; where one pixel stands for the line, that one four times
+  truth inside;      // the point is in the image
+} Row;
+
+/// (x, y): radii in the image. A row that reaches over a border is moved back into the image. `any_single`: of the
+/// lanes.
+SHARED Row row_at(global const float* depth, Pixels at, Ball ball, truth single, int any_single, real x, real y,
+                  const ObscuranceSetting* setting) {
+  const real u = fma(x, ball.pixels, at.x + REAL(0.5)), v = fma(y, ball.pixels, at.y + REAL(0.5));
+  const real end_x = (real)((float)(setting->width)), end_y = (real)((float)(setting->height));
+  // Cut off towards zero: `floor` of a vector costs nine instructions.
+  whole pixel_x = TO_WHOLE(at_least(at_most(u - REAL(1.5), end_x - REAL(4.0)), REAL(0.0)));
+  const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
+  const whole line = pixel_y * (whole)(setting->width);
+  // In images narrower than four pixels a read reaches into the next row, but stays in the plane.
+  const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
+  Row row;
+  row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);
+  row.depths = row_pixels(depth, index);
+  if (any_single) {
+    const whole one_x = TO_WHOLE(at_least(at_most(u, end_x - REAL(1.0)), REAL(0.0)));
+    const whole place = line + one_x - index;
+    real one = row.depths.of[0];
+    for (int k = 1; k < 4; ++k) one = PICK(place == (whole)(k), row.depths.of[k], one);
+    for (int k = 0; k < 4; ++k) row.depths.of[k] = PICK(single, one, row.depths.of[k]);
+    pixel_x = PICK(single, one_x, pixel_x);
+  }
+  const real first_x = TO_REAL(pixel_x), first_y = TO_REAL(pixel_y);
+  row.x = first_x - at.x;
+  row.y = first_y - at.y;
+  return row;
+}
+
+#endif
