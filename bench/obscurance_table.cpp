@@ -92,9 +92,9 @@ std::vector<Tuned> tuned_settings() {
   for (const double thickness : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 0.0})
     all.push_back({"cosine", 1, thickness, 5});
   for (const double share : {0.6, 0.8}) all.push_back({"cosine", share, 5, 5});
-  all.push_back({"cosine", 0.6, 5, 16});
-  all.push_back({"quadratic", 0.6, 6, 16});
-  for (const double thickness : {0.0, 4.0, 5.0, 6.0}) all.push_back({"constant", 0.6, thickness, 16});
+  all.push_back({"cosine", 0.6, 5, 12});
+  all.push_back({"quadratic", 0.6, 6, 12});
+  for (const double thickness : {0.0, 4.0, 5.0, 6.0}) all.push_back({"constant", 0.6, thickness, 12});
   return all;
 }
 
