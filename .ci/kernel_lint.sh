@@ -28,8 +28,9 @@ for kernel in kernels/*.cl; do
       lint "$kernel" "-DW=$width" "-DSHARE=$variant"
       grep -q SHARE "$kernel" || break
     done
-    if grep -qE 'UNDERSTORY_ATOMIC64|visibility_buffer' "$kernel"; then
+    if grep -qE 'UNDERSTORY_ATOMIC64|VisibleTriangle' "$kernel"; then
       lint "$kernel" "-DW=$width" -DUNDERSTORY_ATOMIC64
+      lint "$kernel" "-DW=$width" -DNARROW_ATOMICS -DRASTER_PASS=1
     fi
     if grep -q QUADRATIC "$kernel"; then
       for radii in 1 2; do lint "$kernel" "-DW=$width" -DNORMALS -DTHICKNESS "-DRADII=$radii"; done

@@ -119,14 +119,14 @@ KernelCase pose_grass_case() {
           }};
 }
 
-// The meadow from above, 25 m high: a blade is a fifth of a pixel wide and seen end-on.
+// The meadow from its edge, 5 m before the first blades and 1 m high.
 
 struct DrawnMeadow {
   DrawnMeadow(Device& device, const BenchFragments& all)
       : pass(device, device.info().atomic64),
         passes(device.info().atomic64 ? 1 : 2),
         meadow(meadow_for(device, all)),
-        camera(level_view(all.planes)),
+        camera(northward(level_view(all.planes))),
         visible(cleared_words(device, camera)) {
     std::vector<TriangleChunk> chunks;
     std::vector<BladeUnit> units;
@@ -141,18 +141,40 @@ struct DrawnMeadow {
     triangles.chunks = uploaded(device, chunks, "chunks");
     triangles.grass_chunks = static_cast<std::uint32_t>(chunks.size());
     unit_table = uploaded(device, units, "units");
-    meadow->wind.root_offset_x = meadow->wind.root_offset_y = -12.8f;
-    meadow->wind.root_offset_z = -25;
+    meadow->wind.root_offset_x = static_cast<float>(-eye.x);
+    meadow->wind.root_offset_y = static_cast<float>(-eye.y);
+    meadow->wind.root_offset_z = static_cast<float>(-eye.z);
   }
   void run() {
     for (std::size_t raster_pass = 0; raster_pass < passes; ++raster_pass)
       pass.run(raster_pass, meadow->rest, meadow->wind, meadow->series, unit_table, 0,
                static_cast<std::uint32_t>(unit_table.size()), triangles, camera, meadow->posed, visible);
   }
+  /// Of posed vertices, m; 1 where a pixel is not as far away as the blade that it sees.
   double error() const {
-    return largest_offset(meadow->posed,
-                          [&](std::size_t i) { return meadow->vertex(i) + glm::dvec3(-12.8, -12.8, -25); });
+    const std::vector<std::uint32_t> words = visible.words.read();
+    const bool wide = passes == 1;  // visibility_buffer.h
+    constexpr std::size_t group_triangles = triangles_per_blade * blades_per_group;
+    for (std::size_t pixel = 0; pixel < words.size() / 2; pixel += 97) {
+      const std::size_t triangle = words[wide ? 2 * pixel : words.size() / 2 + pixel];
+      if (triangle == 0xffffffffu) continue;
+      const std::size_t blade = triangle / group_triangles * blades_per_group + triangle % blades_per_group;
+      const double depth = double(std::bit_cast<float>(words[wide ? 2 * pixel + 1 : pixel]));
+      const double expected =
+          meadow->vertex(blade / blades_per_group * vertices_per_blade * blades_per_group + blade % blades_per_group)
+              .y -
+          eye.y;
+      if (!(std::abs(depth - expected) < 3 * double(Meadow::half_width))) return 1;
+    }
+    return largest_offset(meadow->posed, [&](std::size_t i) { return meadow->vertex(i) - eye; });
   }
+  static CameraView northward(CameraView camera) {
+    camera.down[1] = camera.forward[2] = 0;
+    camera.down[2] = -1;
+    camera.forward[1] = 1;
+    return camera;
+  }
+  static constexpr glm::dvec3 eye{12.8, -5, 1};
   DrawBladesPass pass;
   std::size_t passes;
   std::shared_ptr<Meadow> meadow;

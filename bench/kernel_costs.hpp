@@ -1,5 +1,5 @@
 // What one item of each benchmarked kernel costs at least: the one description that `understory bench` judges speeds by
-// and that tests/host/kernel_costs_test.cpp compares with the instructions that oclgrind counts.
+// and that tests/program/kernel_costs_test.cpp compares with the instructions that oclgrind counts.
 #pragma once
 #include <span>
 #include <string_view>

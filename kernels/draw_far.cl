@@ -21,16 +21,16 @@ kernel void draw_far(global const float* rest_x, global const float* rest_y, glo
   const RestFlutter flutter = {flutter_x, flutter_y, flutter_z, flutter_phase};
   const uint later = get_global_id(0) + UNITS_AHEAD * per_block;
   if (part == 0 && later < items) {
-    const size_t vertex = 16 * (size_t)blocks[units[later / per_block].first_block].rest_block;
+    const size_t later_rest = 16 * (size_t)blocks[units[later / per_block].first_block].rest_block;
     for (uint k = 0; k < 3; ++k) {
-      fetch_ahead(rest_x + vertex + 16 * k);
-      fetch_ahead(rest_y + vertex + 16 * k);
-      fetch_ahead(rest_z + vertex + 16 * k);
+      fetch_ahead(rest_x + later_rest + 16 * k);
+      fetch_ahead(rest_y + later_rest + 16 * k);
+      fetch_ahead(rest_z + later_rest + 16 * k);
     }
-    fetch_ahead(flutter_x + vertex);
-    fetch_ahead(flutter_y + vertex);
-    fetch_ahead(flutter_z + vertex);
-    fetch_ahead(flutter_phase + vertex);
+    fetch_ahead(flutter_x + later_rest);
+    fetch_ahead(flutter_y + later_rest);
+    fetch_ahead(flutter_z + later_rest);
+    fetch_ahead(flutter_phase + later_rest);
   }
   real x[3], y[3], z[3];
   for (uint k = 0; k < 3; ++k) {

@@ -34,10 +34,11 @@ void FrameFiles::compute(FrameRunner& runner, int index, double time, FrameOutpu
   output.frame = runner.render(index, time);
   if (dumps("vtk") || dumps("ply")) output.geometry = runner.posed_geometry();
   if (!dumps("png") || supersample_ == 1) return;
+  Frame sample;
   for (int row = 0; row < supersample_; ++row)
     for (int column = 0; column < supersample_; ++column) {
       const glm::dvec2 offset = (glm::dvec2(column, row) + 0.5) / double(supersample_) - 0.5;
-      const Frame sample = runner.render(index, time, offset);
+      runner.render(sample, index, time, offset);
       for (const auto& [pass, ms] : sample.pass_ms) output.frame.pass_ms[pass] += ms;
       output.samples.add(sample);
     }

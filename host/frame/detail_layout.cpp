@@ -171,7 +171,7 @@ class PrototypeLayout {
           const FarPiece& piece = pieces[std::min(l, pieces.size() - 1)];
           const glm::vec3 middle = (piece.places[0] + piece.places[1] + piece.places[2]) / 3.0f;
           const glm::vec3 place = l < pieces.size() ? piece.places[k] : middle;  // the unit's other triangles: no area
-          add_vertex(piece.vertices[k], place, middle);
+          add_vertex(piece.vertices[l < pieces.size() ? k : 0], place, middle);
           section.piece_radius = std::max(section.piece_radius, glm::distance(place, middle));
         }
       for (std::uint32_t l = 0; l < unit_triangles; ++l)
@@ -241,12 +241,16 @@ class PrototypeLayout {
     const std::uint32_t last = *std::min_element(twig.vertices.begin(), twig.vertices.end(), [&](auto p, auto q) {
       return glm::distance(positions_[p], tip) < glm::distance(positions_[q], tip);
     });
-    const double face = area_of(a, b, last);
-    const auto growth = static_cast<float>(face > 0 ? 0.5 * area_of(twig) / face : 1.0);
-    const glm::vec3 base = 0.5f * (positions_[a] + positions_[b]);
+    const glm::vec3 base = 0.5f * (positions_[a] + positions_[b]), along = positions_[last] - base;
+    const float length = glm::length(along);
+    glm::vec3 across = glm::cross(along, glm::cross(positions_[a] - positions_[b], along));
+    if (glm::length(across) < 1e-3f * length * length * stem.ends[thick].radius)  // a and b lie along the twig
+      across = glm::cross(along, std::abs(along.z) < 0.9f * length ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0));
+    const glm::vec3 half =
+        length > 0 ? static_cast<float>(0.5 * area_of(twig)) / length * glm::normalize(across) : glm::vec3(0);
     FarPiece far;
     far.vertices = {a, b, last};
-    far.places = {base + growth * (positions_[a] - base), base + growth * (positions_[b] - base), positions_[last]};
+    far.places = {base + half, base - half, positions_[last]};
     far.source = source_of(run, twig.triangles.front());
     return far;
   }

@@ -322,7 +322,7 @@ const DrawList& DrawLister::hiders() {
     if (list_.vertices > 0 && list_.vertices + part.vertices() > most_vertices_) break;
     append(part);
   }
-  append_far();  // solid bodies have none
+  append_far();
   list_.first_unit.assign(blades_.fields.size() + 1, 0);
   has_begun_ = true;
   return list_;

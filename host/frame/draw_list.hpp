@@ -121,7 +121,7 @@ class DrawLister {
 bool may_hide(const Prototype& prototype);
 /// Whether anything in the world may.
 bool has_hiders(const World& world);
-/// Whether a plant has leaves or wood, which may be far away.
+/// Whether anything has leaves or wood, of which some may be drawn as far pieces.
 bool has_far_pieces(const World& world);
 
 /// Centre and radius of a section's sphere at time t, camera-relative m: an arc of curvature k stretches what lies d

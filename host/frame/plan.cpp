@@ -66,7 +66,7 @@ void plan_geometry(const Contents& contents, Plan& plan) {
   if (contents.meshes) plan.passes.push_back({"rasterise_mesh", "rasterise", bodies, "plants, occluders, terrain"});
   if (contents.far_pieces) plan.passes.push_back({"draw_far", "draw_far", "leaves and twigs, far away", "detail"});
   if (contents.grass && contents.brute) plan.passes.push_back({"rasterise_grass", "rasterise", "grass", "grass"});
-  if (contents.grass && !contents.brute) plan.passes.push_back({"draw_blades", "draw_blades", "grass", "detail"});
+  if (contents.grass && !contents.brute) plan.passes.push_back({"draw_blades", "draw_blades", "grass", "grass"});
   if (contents.hiders)
     plan.passes.push_back({"farthest_depth", "farthest_depth",
                            "solid bodies or relief may hide what is behind, where the device has 64-bit atomics",

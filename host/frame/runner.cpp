@@ -192,6 +192,9 @@ void FrameRunner::render(Frame& frame, int index, double time, glm::dvec2 pixel_
   frame.world_to_camera = world_to_camera(scene.camera);
   frame.vertical_fov = scene.camera.vertical_fov;
   frame.near_plane = scene.camera.near_plane;
+  frame.orthographic_height = 0;
+  frame.halfwidth.clear();
+  frame.rays.clear();
   frame.pass_ms = impl_->device.take_pass_times();
   read_planes(impl_->planes, impl_->pose.eye, frame);
   read_visibility(*impl_->visibility, impl_->planes.row_length, frame);

@@ -76,7 +76,8 @@ void SeenGeometry::draw_hiders(RasterisePass& rasterise, VisibilityBuffer& visib
   list_ = &lister_.hiders();
   if (list_->mesh.chunks.empty()) return;
   pose_list();
-  rasterise.draw_mesh(0, geometry_.triangles, 0, list_->mesh_chunks, geometry_.posed, camera_, visible);
+  // Their far twigs are drawn with those of the first batch.
+  rasterise.draw_mesh(0, geometry_.triangles, 0, list_->posed_chunks, geometry_.posed, camera_, visible);
   limbs_there_ = list_->limbs.size();
   blocks_there_ = list_->mesh.blocks.size();
   chunks_there_ = list_->mesh_chunks;
@@ -121,8 +122,9 @@ void SeenGeometry::write_list() {
   if (thinned_) rewrite(device_, enlarged_.block_scale, list_->mesh.block_scale, "enlarged leaves", blocks_there_);
   rewrite(device_, far_units_, list_->far_units, "far pieces");
   rewrite(device_, blade_units_, list_->blade_units, "blade units");
-  // The queue is in order: when this one is written, all are. Nothing is listed without a chunk.
+  // The queue is in order: when this one is written, all are.
   rewrite(device_, geometry_.triangles.chunks, list_->mesh.chunks, "triangle chunks", chunks_there_, true);
+  if (chunks_there_ == list_->mesh.chunks.size()) device_.finish();
 }
 
 void SeenGeometry::pose_list() {

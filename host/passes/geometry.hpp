@@ -31,7 +31,8 @@ struct RestBlades {
   Buffer<float> flexibility, phase;      // 1; radians
 };
 
-/// Vertices at time t: first every mesh instance's blocks of 16, then 7 x 256 for each 256 blades.
+/// Vertices at time t: first every mesh instance's blocks of 16, then 7 x 256 for each 256 blades; in lists of
+/// blades 2 pairs + 1 instead of 7 (records.h, BladeUnit).
 struct PosedVertices {
   Buffer<std::array<float, 4>> points;  // x, y, z, unused; m, camera-relative, world axes
 };

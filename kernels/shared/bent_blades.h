@@ -1,4 +1,4 @@
-// W blades of one field in the wind of time t: where they stand, how they bend and how wide they are.
+// W blades of one field in the wind of time t: where they stand, how they bend and how wide they are. OpenCL only.
 #ifndef UNDERSTORY_BENT_BLADES_H
 #define UNDERSTORY_BENT_BLADES_H
 

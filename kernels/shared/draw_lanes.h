@@ -1,5 +1,5 @@
 // W projected triangles into the visibility buffer: those whose boxes hold few pixel centres in lanes, the others one
-// by one.
+// by one. OpenCL only.
 #ifndef UNDERSTORY_DRAW_LANES_H
 #define UNDERSTORY_DRAW_LANES_H
 

@@ -1,6 +1,6 @@
 // Four numbers that stand side by side in a table, read at one place for each lane and handed out one number after the
 // other. Four lanes at a time make a row of 16 floats in a register; rows are turned into lanes by shuffles, which cost
-// a fifth of writing number after number.
+// a fifth of writing number after number. OpenCL only.
 #ifndef UNDERSTORY_FOUR_NUMBERS_H
 #define UNDERSTORY_FOUR_NUMBERS_H
 

@@ -1,5 +1,5 @@
-// Four neighbouring pixels of a row that stand for a line of `obscurance-line`: where they are, what they show, and
-// what that hides of the line. OpenCL only.
+// Four neighbouring pixels of a row that stand for a line of `obscurance-line`: where they are and what they
+// show. OpenCL only.
 #ifndef UNDERSTORY_OBSCURANCE_ROW_H
 #define UNDERSTORY_OBSCURANCE_ROW_H
 

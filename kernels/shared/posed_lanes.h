@@ -1,4 +1,5 @@
 // W rest vertices of one limb at time t: they flutter, then the limb carries them (records.h, LimbPose).
+// OpenCL only.
 #ifndef UNDERSTORY_POSED_LANES_H
 #define UNDERSTORY_POSED_LANES_H
 

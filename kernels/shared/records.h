@@ -35,7 +35,7 @@ typedef struct {
 
 /// Up to 256 consecutive triangles of one owner. Triangle ids are chunk * 256 + lane.
 /// Mesh: entry `first_index` + lane of the three index planes, plus `first_vertex`.
-/// Grass: vertices first_vertex + lane, + 256, + 512; `first_blade` + lane is the blade.
+/// Grass: vertices first_vertex + lane, + 256, + 512; `first_index` + lane is the blade.
 typedef struct {
   record_uint first_vertex;
   record_uint first_index;   // mesh: in triangles of the index planes; grass: the first blade

@@ -50,6 +50,25 @@ TEST(Detail, ThinnedFramesDependOnSceneAndTimeAlone) {
   EXPECT_EQ(differing_planes(first, runner.render(0, 0.5)), std::vector<std::string>());
 }
 
+TEST(Detail, LeaflessPlantsMayHideOthersAndHaveFarTwigs) {
+  Scene scene = meadow_view();
+  scene.wind.speed = 20;
+  scene.camera.position = scene.camera.target + 4.0 * (scene.camera.position - scene.camera.target);
+  World world = build_world(scene);
+  for (Prototype& prototype : world.prototypes)
+    for (TriangleRun& run : prototype.runs)
+      if (run.surface == SurfaceClass::leaf) run.surface = SurfaceClass::wood;
+  const Frame brute = rendered(world, "brute"), first = rendered(world, "thinned");
+  Device device;
+  FrameRunner runner(device, world);
+  runner.render(1, 3.5);
+  EXPECT_EQ(differing_planes(first, runner.render(0, 0.5)), std::vector<std::string>());
+  EXPECT_EQ(differing_planes(first, rendered(world, "thinned", 3000)), std::vector<std::string>());
+  std::size_t nearer = 0;  // what was never posed stands at the eye, or where another frame left it
+  for (std::size_t i = 0; i < first.pixels(); ++i) nearer += first.depth[i] < 0.8f * brute.depth[i];
+  EXPECT_LT(nearer, first.pixels() / 50);
+}
+
 TEST(Detail, DumpsHoldWhatIsOutOfView) {
   World world = build_world(meadow_view());
   const auto triangles = [&](const char* detail) {
