@@ -131,7 +131,8 @@ Variant TradeoffModel::variant_of(const Combination& combination) const {
     const MeasuredTerm& chosen = terms_[static_cast<std::size_t>(term)];
     variant.methods = with_term(variant.methods, chosen.axis, chosen.variant.methods);
   }
-  variant.methods.near_field.combine = combination.near_is_limit ? "minimum" : "product";
+  if (variant.methods.near != "none")
+    variant.methods.near_field.combine = combination.near_is_limit ? "minimum" : "product";
   return variant;
 }
 
