@@ -6,7 +6,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/obscurance_entry.h"
 
-/// A point of the plane, by rounding, is not behind it. Radii.
+/// What is on the plane, by rounding, hides nothing. Radii along the ray.
 #define ON_THE_PLANE REAL(1e-4)
 
 /// The k-th of 16 directions over a hemisphere: equal steps in z, golden section in azimuth.
@@ -32,6 +32,34 @@ SHARED BallVector reflected(BallVector p, BallVector by, real length) {
 
 SHARED real along(BallVector p, BallVector q) { return fma(p.x, q.x, fma(p.y, q.y, p.z * q.z)); }
 
+/// Where a point of the ball is seen, radii from the fragment at the fragment's depth. What is not in front of the
+/// camera is seen far outside.
+SHARED DiscPoint in_image(Receiver to, Ball ball, BallVector p) {
+  const real beyond = fma(p.z, to.sight_z, -fma(p.x, to.sight_x, p.y * to.sight_y));
+  const real scale = REAL(1.0) / at_least(fma(ball.widening, beyond, REAL(1.0)), REAL(1e-3));
+  DiscPoint seen;
+  seen.x = fma(to.spread_xx, p.x, to.spread_xy * p.y) * scale;
+  seen.y = fma(to.spread_xy, p.x, to.spread_yy * p.y) * scale;
+  return seen;
+}
+
+#ifdef NORMALS
+/// How high above the tangent plane what the pixel shows is, radii, where its ray meets the plane.
+typedef struct {
+  real height;
+  truth is_known;  // the ray falls towards the plane
+} SeenHeight;
+
+SHARED SeenHeight seen_height(Receiver to, Ball ball, Neighbour next) {
+  const real rise = fma(to.normal_x, next.x, to.normal_y * next.y);
+  const real facing = fma(ball.widening, rise, to.facing);
+  SeenHeight seen;
+  seen.height = fma((next.depth - to.depth) * ball.per_radius, facing, rise);
+  seen.is_known = facing < EDGE_ON;
+  return seen;
+}
+#endif
+
 SHARED real ball_obscurance(global const float* depth, global uint* validity, global const ObscuranceRow* rows,
                             uint count, uint item, Pixels at, Receiver to, truth drawn, float radius,
                             const ObscuranceSetting* setting) {
@@ -39,7 +67,7 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
   const BallVector mirror = mirror_direction(at.turn);
 #ifdef NORMALS
   const BallVector normal = normal_in_ball(to);
-  const real per_facing = REAL(1.0) / normal.z;
+  const real on_plane = ON_THE_PLANE * to.facing;
   const real full = REAL(1.0);
 #else
   const real full = REAL(0.5);
@@ -53,27 +81,29 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
     p.x = fma(normal.x, REAL(0.5), p.x);
     p.y = fma(normal.y, REAL(0.5), p.y);
     p.z = fma(normal.z, REAL(0.5), p.z);
-    const real rise = along(p, normal);
+    const real height = along(p, normal);
 #elif defined(NORMALS)
-    const real rise = along(p, normal);
-    p = reflected(p, normal, at_most(rise, REAL(0.0)));
+    const real height = along(p, normal);
+    p = reflected(p, normal, at_most(height, REAL(0.0)));
 #endif
-    const Neighbour next = neighbour_at(depth, at, ball, fma(to.spread_xx, p.x, to.spread_xy * p.y),
-                                        fma(to.spread_xy, p.x, to.spread_yy * p.y), setting);
+    const DiscPoint goal = in_image(to, ball, p);
+    const Neighbour next = neighbour_at(depth, at, ball, goal.x, goal.y, setting);
     const real share = PICK(next.inside, (real)(rows[row].share), REAL(0.0));
-    const real seen = seen_depth(to, ball, next.x, next.y, next.depth);
-    real z = p.z;
+    const real hidden = p.z - seen_depth(to, ball, next.x, next.y, next.depth);
+    truth is_open = hidden < REAL(0.0);
 #ifdef NORMALS
-    // The pixel is not quite where the point is: there, keep the point as high above the plane as it is.
-    const PlaneDepth plane = plane_depth(to, ball, next.x, next.y);
-    z = PICK(plane.is_beyond, z, fma(fabs(rise), per_facing, plane.depth - ON_THE_PLANE));
+    // The pixel's centre is not quite where the point is: along the plane it is carried there. On a ray that falls
+    // towards the plane, what is higher is in front.
+    const SeenHeight seen = seen_height(to, ball, next);
+    is_open = PICK(seen.is_known, seen.height + on_plane < fabs(height), is_open);
 #endif
 #ifdef THICKNESS
-    const real behind = at_most((z - seen) * (real)(0.5f * radius / setting->thickness), REAL(1.0));
+    const real per_thickness = (real)(0.5f * radius / setting->thickness);
+    const real behind = at_least(at_most(hidden * per_thickness, REAL(1.0)), REAL(0.0));
 #else
     const real behind = REAL(0.0);
 #endif
-    open = fma(share, PICK(z < seen, REAL(1.0), behind), open);
+    open = fma(share, PICK(is_open, REAL(1.0), behind), open);
     all = fma(full, share, all);
     left |= NOT(next.inside);
   }

@@ -62,33 +62,30 @@ class Ball {
     pixels = image.view.focal * radius / (image.view.perspective ? centre.z : 1);
   }
 
-  /// What the pixel under the disc's point (x, y) shows.
+  /// What the pixel shows in which a point of the ball is seen.
   struct Seen {
     bool inside = false;
-    double depth = 0, plane = 0;  // along the sight, radii
-    bool beyond_plane = false;
+    double depth = 0;   // along the sight, radii
+    double height = 0;  // above the tangent plane, radii
+    double facing = 0;  // cosine between normal and ray, times the ray's length
   };
-  Seen look(double x, double y, double& nearest_edge) const {
-    const glm::dvec2 offset = image_offset(x, y);
+  Seen look(const glm::dvec3& p, double& nearest_edge) const {
+    const glm::dvec3 point = centre + radius_ * (p.x * right + p.y * down + p.z * sight);
+    const ObscuranceView& view = image_.view;
+    const double scale = view.focal / (view.perspective ? point.z : 1);
+    const glm::dvec2 place(point.x * scale + view.centre_x, point.y * scale + view.centre_y), cell = glm::floor(place);
+    for (const double distance : {place.x - cell.x, place.y - cell.y})
+      nearest_edge = std::min(nearest_edge, std::min(distance, 1 - distance));
     Seen seen;
-    const glm::dvec2 cell = glm::floor(offset + 0.5);
-    for (int axis = 0; axis < 2; ++axis)
-      nearest_edge = std::min(nearest_edge, 0.5 - std::abs(offset[axis] - cell[axis]));
-    const double there_x = x_ + cell.x, there_y = y_ + cell.y;
-    seen.inside = there_x >= 0 && there_y >= 0 && there_x < image_.view.width && there_y < image_.view.height;
+    seen.inside = !(view.perspective && point.z <= 0) && cell.x >= 0 && cell.y >= 0 && cell.x < view.width &&
+                  cell.y < view.height;
     if (!seen.inside) return seen;
-    const int column = static_cast<int>(there_x), row = static_cast<int>(there_y);
-    const PixelRay ray = pixel_ray(image_.view, column, row);
+    const int column = static_cast<int>(cell.x), row = static_cast<int>(cell.y);
+    const PixelRay ray = pixel_ray(view, column, row);
     const double depth = image_.depth_at(column, row);
     seen.depth = std::isinf(depth) ? 1e6 : glm::dot(ray.at(depth) - centre, sight) / radius_;
-    const double facing = glm::dot(normal, ray.direction);
-    seen.beyond_plane = facing > -1e-3;
-    if (seen.beyond_plane) {
-      seen.plane = 1e6;
-      return seen;
-    }
-    const double hit = glm::dot(centre - ray.origin, normal) / facing;
-    seen.plane = glm::dot(ray.at(hit) - centre, sight) / radius_;
+    seen.facing = glm::dot(normal, ray.direction);
+    seen.height = std::isinf(depth) ? -1e6 : glm::dot(ray.at(depth) - centre, normal) / radius_;
     return seen;
   }
 
@@ -229,14 +226,14 @@ inline Obscurance point_obscurance(const DepthImage& image, int x, int y, const 
     glm::dvec3 p = filled.middle +
                    filled.size * glm::reflect(glm::dvec3(double{sample.x}, double{sample.y}, double{sample.z}), mirror);
     if (normals && filled.size == 1 && glm::dot(p, normal) < 0) p = glm::reflect(p, normal);
-    const Ball::Seen seen = ball.look(p.x, p.y, result.nearest_edge);
+    const Ball::Seen seen = ball.look(p, result.nearest_edge);
     if (!seen.inside) continue;
     const double share = double{quadratic ? sample.quadratic_share : sample.constant_share};
-    double z = p.z;
-    // As far in front of the plane, along the sight, as the point is.
-    if (normals && !seen.beyond_plane) z = seen.plane - 1e-4 - std::abs(glm::dot(p, normal) / normal.z);
-    open += share * (z < seen.depth ? 1 : open_behind(z, seen.depth, options.thickness / radius));
-    if (std::abs(z - seen.depth) < 1e-3) result.doubt += share;
+    const double hidden = p.z - seen.depth;
+    const bool by_height = normals && seen.facing < -1e-3;
+    const double margin = by_height ? seen.height + 1e-4 * ball.facing() - std::abs(glm::dot(p, normal)) : hidden;
+    open += share * (margin < 0 ? 1 : open_behind(p.z, seen.depth, options.thickness / radius));
+    if (std::abs(margin) < 1e-3 || (normals && std::abs(seen.facing + 1e-3) < 1e-4)) result.doubt += share;
     all += (normals ? 1 : 0.5) * share;
   }
   result.value = all > 1e-6 ? std::clamp(open / all, 0.0, 1.0) : 1;
