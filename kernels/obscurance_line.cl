@@ -38,7 +38,7 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
   for (uint row = 0; row < count; ++row) {
     const real half_length = (real)(rows[row].z) * per_unit;
     const DiscPoint goal = turned(turn, middle, (real)(rows[row].x), (real)(rows[row].y));
-    const Row next = row_at(depth, at, ball, depths.single, any_single, goal.x, goal.y, setting);
+    const Row next = row_at(depth, at, ball, depths, any_single, goal.x, goal.y, setting);
     const real share = PICK(next.inside, (real)(rows[row].share), REAL(0.0));
     const real across = fma(to.sight_x, goal.x, to.sight_y * goal.y);
     const real plane = fma(per_unit, across, -fma(depths.rise_x, goal.x, depths.rise_y * goal.y));
@@ -61,8 +61,8 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
 #else
       sum += line_integral(half_length, at_most(seen, end), FALLOFF);
 #endif
-      a += depths.next_a;
-      scale += depths.next_scale;
+      a += k == 1 ? depths.next_pair_a : depths.next_a;
+      scale += k == 1 ? depths.next_pair_scale : depths.next_scale;
     }
 #ifdef THICKNESS
     const real length = fma(REAL(-0.125), sum, line_integral(half_length, end, FALLOFF));

@@ -1,5 +1,5 @@
-// Four neighbouring pixels of a row that stand for a line of `obscurance-line`: where they are and what they
-// show. OpenCL only.
+// Four pixels of a row that stand for a line of `obscurance-line`, where they are and what they show: neighbours, or
+// every second one where the ball is large. OpenCL only.
 #ifndef UNDERSTORY_OBSCURANCE_ROW_H
 #define UNDERSTORY_OBSCURANCE_ROW_H
 
@@ -7,6 +7,8 @@
 
 /// Below this radius in the image, pixels, a row would reach over too much of the ball: one pixel stands for a line.
 #define LEAST_ROW_RADIUS REAL(4.0)
+/// From this radius on, pixels, rows are of every second pixel: neighbours say nearly the same of a large ball.
+#define LEAST_WIDE_RADIUS REAL(24.0)
 
 /// How deep what pixels show is along the sight, in units of `unit` radii. With `step`, m, how far the camera z of the
 /// pixel (x, y) pixels from the fragment is beyond the fragment's:
@@ -17,11 +19,13 @@ typedef struct {
   real along_x, along_y;  // 1/pixel
   real base_scale;        // 1/m
   real scale_of_a;        // 1/m
-  real next_a;            // of a, from a pixel of a row to the next; 0 where one pixel stands for the line
-  real next_scale;        // of what `step` is multiplied with, likewise
+  real next_a;            // of a, from the first of a pair of pixels to the second; 0 where one stands for the line
+  real next_pair_a;       // from the second of the first pair to the first of the second, likewise
+  real next_scale, next_pair_scale;  // of what `step` is multiplied with, likewise
   real rise_x, rise_y;    // of a, for a radius in the image
   real radius_of_step;    // `step` of what is a radius beyond the fragment on its own ray, m
   truth single;           // one pixel stands for a line
+  truth wide;             // every second pixel
 } RowDepths;
 
 SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, const ObscuranceSetting* setting) {
@@ -39,13 +43,17 @@ SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, 
   row.base_scale = per_unit * to.ray_length * ball.per_radius;
   row.scale_of_a = ball.widening * ball.per_radius;
   row.single = (ball.pixels < LEAST_ROW_RADIUS) | ((whole)(setting->width) < (whole)(4));
-  row.next_a = PICK(row.single, REAL(0.0), row.along_x);
+  row.wide = (ball.pixels >= LEAST_WIDE_RADIUS) & ((whole)(setting->width) >= (whole)(7));
+  row.next_a = PICK(row.single, REAL(0.0), row.along_x + row.along_x);
+  row.next_pair_a = PICK(row.single, REAL(0.0), PICK(row.wide, row.next_a, -row.along_x));
   row.next_scale = row.next_a * row.scale_of_a;
+  row.next_pair_scale = row.next_pair_a * row.scale_of_a;
   row.radius_of_step = radius * to.sight_z;
   return row;
 }
 
-/// Depths of four pixels, m, for each lane.
+/// Depths of two pairs of pixels, m, for each lane: 0 and 2 pixels from the row's first, then 1 and 3; 4 and 6 of a wide
+/// row.
 typedef struct {
   real of[4];
 } RowPixels;
@@ -73,23 +81,34 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3), quarter(4, 5, 6, 7), quarter(8, 9, a, b), quarter(c, d, e, f))
 #endif
 
-/// plane[index] to plane[index + 3]. One load a lane, of all four: among leaves a pixel says all or nothing, and what
-/// four cost is nearly what one costs.
-SHARED RowPixels row_pixels(global const float* plane, whole index) {
+/// The first and third of four from plane[index] on, the second and fourth of four from plane[second] on. Two loads a
+/// lane: among leaves a pixel says all or nothing, and what four cost is nearly what one costs.
+SHARED RowPixels row_pixels(global const float* plane, whole index, whole second) {
   RowPixels row;
 #if W == 1
-  const float4 four = FOUR_FROM(plane, index);
+  const float4 four = FOUR_FROM(plane, index), others = FOUR_FROM(plane, second);
   row.of[0] = four.x;
-  row.of[1] = four.y;
-  row.of[2] = four.z;
-  row.of[3] = four.w;
+  row.of[1] = four.z;
+  row.of[2] = others.y;
+  row.of[3] = others.w;
 #else
-#define FIRST(i, j, k, l) FOUR_FROM(plane, index.s##i)
-#define SECOND(i, j, k, l) FOUR_FROM(plane, index.s##j)
-#define THIRD(i, j, k, l) FOUR_FROM(plane, index.s##k)
-#define FOURTH(i, j, k, l) FOUR_FROM(plane, index.s##l)
+#define FIRST(i, j, k, l) FOUR_FROM(plane, from.s##i)
+#define SECOND(i, j, k, l) FOUR_FROM(plane, from.s##j)
+#define THIRD(i, j, k, l) FOUR_FROM(plane, from.s##k)
+#define FOURTH(i, j, k, l) FOUR_FROM(plane, from.s##l)
+#define PAIRS(i, j, k, l) x.s##i, x.s##k, y.s##j, y.s##l
+  whole from = index;
   real a = (real)BY_QUARTERS(FIRST), b = (real)BY_QUARTERS(SECOND), c = (real)BY_QUARTERS(THIRD),
        d = (real)BY_QUARTERS(FOURTH);
+  from = second;
+  real x = a, y = (real)BY_QUARTERS(FIRST);
+  a = (real)BY_QUARTERS(PAIRS);
+  x = b, y = (real)BY_QUARTERS(SECOND);
+  b = (real)BY_QUARTERS(PAIRS);
+  x = c, y = (real)BY_QUARTERS(THIRD);
+  c = (real)BY_QUARTERS(PAIRS);
+  x = d, y = (real)BY_QUARTERS(FOURTH);
+  d = (real)BY_QUARTERS(PAIRS);
   SETTLED(a);
   SETTLED(b);
   SETTLED(c);
@@ -98,11 +117,12 @@ SHARED RowPixels row_pixels(global const float* plane, whole index) {
 #undef SECOND
 #undef THIRD
 #undef FOURTH
+#undef PAIRS
 #define LOW(i, j, k, l) x.s##i, y.s##i, x.s##j, y.s##j
 #define HIGH(i, j, k, l) x.s##k, y.s##k, x.s##l, y.s##l
 #define LOW_PAIRS(i, j, k, l) x.s##i, x.s##j, y.s##i, y.s##j
 #define HIGH_PAIRS(i, j, k, l) x.s##k, x.s##l, y.s##k, y.s##l
-  real x = a, y = b;
+  x = a, y = b;
   real ab_low = (real)BY_QUARTERS(LOW), ab_high = (real)BY_QUARTERS(HIGH);
   x = c, y = d;
   real cd_low = (real)BY_QUARTERS(LOW), cd_high = (real)BY_QUARTERS(HIGH);
@@ -133,26 +153,29 @@ typedef struct {
 
 /// (x, y): radii in the image. A row that reaches over a border is moved back into the image. `any_single`: of the
 /// lanes.
-SHARED Row row_at(global const float* depth, Pixels at, Ball ball, truth single, int any_single, real x, real y,
+SHARED Row row_at(global const float* depth, Pixels at, Ball ball, RowDepths depths, int any_single, real x, real y,
                   const ObscuranceSetting* setting) {
   const real u = fma(x, ball.pixels, at.x + REAL(0.5)), v = fma(y, ball.pixels, at.y + REAL(0.5));
   const real end_x = (real)((float)(setting->width)), end_y = (real)((float)(setting->height));
   // Cut off towards zero: `floor` of a vector costs nine instructions.
-  whole pixel_x = TO_WHOLE(at_least(at_most(u - REAL(1.5), end_x - REAL(4.0)), REAL(0.0)));
+  const real middle = PICK(depths.wide, REAL(3.0), REAL(1.5)), pixels = PICK(depths.wide, REAL(7.0), REAL(4.0));
+  whole pixel_x = TO_WHOLE(at_least(at_most(u - middle, end_x - pixels), REAL(0.0)));
   const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
   const whole line = pixel_y * (whole)(setting->width);
   // In images narrower than four pixels a read reaches into the next row, but stays in the plane.
   const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
   Row row;
   row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);
-  row.depths = row_pixels(depth, index);
+  row.depths = row_pixels(depth, index, PICK(depths.wide, index + 3, index));
   if (any_single) {
     const whole one_x = TO_WHOLE(at_least(at_most(u, end_x - REAL(1.0)), REAL(0.0)));
     const whole place = line + one_x - index;
     real one = row.depths.of[0];
-    for (int k = 1; k < 4; ++k) one = PICK(place == (whole)(k), row.depths.of[k], one);
-    for (int k = 0; k < 4; ++k) row.depths.of[k] = PICK(single, one, row.depths.of[k]);
-    pixel_x = PICK(single, one_x, pixel_x);
+    one = PICK(place == (whole)(2), row.depths.of[1], one);
+    one = PICK(place == (whole)(1), row.depths.of[2], one);
+    one = PICK(place == (whole)(3), row.depths.of[3], one);
+    for (int k = 0; k < 4; ++k) row.depths.of[k] = PICK(depths.single, one, row.depths.of[k]);
+    pixel_x = PICK(depths.single, one_x, pixel_x);
   }
   const real first_x = TO_REAL(pixel_x), first_y = TO_REAL(pixel_y);
   row.x = first_x - at.x;

@@ -133,24 +133,42 @@ TEST(Obscurance, OneLinePixelsOfSmallBallsAndNarrowImagesAreTheReference) {
   expect_reference(image_of(odd_view(2, 128, 0), patchwork(3, 4, 0.2)), {true, 7}, options);
 }
 
+TEST(Obscurance, LargeBallsAreTheReference) {
+  UNDERSTORY_NEEDS_DEVICE();
+  NearField options;
+  options.thickness = 0.8;
+  // 16 to 40 pixels: rows of neighbours and of every second pixel in one image.
+  options.radius = 1.6;
+  for (const double field_of_view : {0.9, 0.0}) {
+    const reference::DepthImage image = image_of(odd_view(61, 37, field_of_view), patchwork(3, 4, 1.5));
+    for (const Kind& kind : {Kind{true, 5}, Kind{false, 12}}) expect_reference(image, kind, options);
+  }
+  // Of every second pixel a row has not room enough.
+  expect_reference(image_of(odd_view(6, 50, 0), patchwork(3, 4, 0.5)), {true, 7}, options);
+}
+
 TEST(Obscurance, LinesTakeTheMeanOfFourPixels) {
   UNDERSTORY_NEEDS_DEVICE();
   Device device;
   // A comb of columns, two pixels wide, far in front of a wall: of four neighbours in a row two are closed, whatever
-  // the line, so that the wall's every pixel is half open; lines by single pixels would leave noise.
-  const ObscuranceView view = odd_view(96, 40, 0);
-  const reference::DepthImage comb = image_of(view, [&](const reference::PixelRay& ray) {
-    const int column = static_cast<int>(std::floor(ray.origin.x * view.focal + view.centre_x));
-    return SurfacePoint{column / 2 % 2 == 0 ? 2.0 : 9.0, {0, 0, -1}};
-  });
-  NearField options;
-  options.radius = 0.5;
-  for (const char* falloff : {"constant", "quadratic", "cosine"}) {
-    options.falloff = falloff;
-    const Shaded shaded = shade_once(device, comb, {true, 5}, options);
-    for (int y = 11; y < 29; ++y)
-      for (int x = 14; x < 82; ++x)
-        EXPECT_NEAR(shaded.visibility[static_cast<std::size_t>(y * 96 + x)], x / 2 % 2 == 0 ? 1 : 0.5, 1e-5) << x;
+  // the line, so that the wall's every pixel is half open; lines by single pixels would leave noise. Columns of four
+  // pixels where the ball is large and rows are of every second.
+  for (const int width : {2, 4}) {
+    const ObscuranceView view = odd_view(160, 80, 0);
+    const auto is_wall = [&](int column) { return column / width % 2 == 1; };
+    const reference::DepthImage comb = image_of(view, [&](const reference::PixelRay& ray) {
+      const int column = static_cast<int>(std::floor(ray.origin.x * view.focal + view.centre_x));
+      return SurfacePoint{is_wall(column) ? 9.0 : 2.0, {0, 0, -1}};
+    });
+    NearField options;
+    options.radius = width == 2 ? 0.5 : 1.5;  // 10, 30 pixels
+    for (const char* falloff : {"constant", "quadratic", "cosine"}) {
+      options.falloff = falloff;
+      const Shaded shaded = shade_once(device, comb, {true, 5}, options);
+      for (int y = 34; y < 46; ++y)
+        for (int x = 36; x < 124; ++x)
+          EXPECT_NEAR(shaded.visibility[static_cast<std::size_t>(y * 160 + x)], is_wall(x) ? 0.5 : 1, 1e-5) << x;
+    }
   }
 }
 

@@ -89,7 +89,7 @@ class Ball {
     return seen;
   }
 
-  /// Of the four pixels about the disc's point (x, y): how deep the line through that point first meets a surface along
+  /// Of four pixels about the disc's point (x, y), every second one of a large ball's: how deep the line through that point first meets a surface along
   /// the sight, radii, were it parallel to the tangent plane through what the pixel shows.
   struct Row {
     bool inside = false;
@@ -100,21 +100,23 @@ class Ball {
   Row look_along_row(double x, double y, bool normals, double& nearest_edge) const {
     const glm::dvec2 offset = image_offset(x, y), goal = glm::dvec2(x_ + 0.5, y_ + 0.5) + offset;
     const int width = image_.view.width, height = image_.view.height;
-    const bool single = pixels < 4 || width < 4;
-    const double start = single ? goal.x : goal.x - 1.5;
+    const bool single = pixels < 4 || width < 4, wide = pixels >= 24 && width >= 7;
+    const int spacing = wide ? 2 : 1;
+    const double start = single ? goal.x : goal.x - 1.5 * spacing;
     for (const double distance : {std::abs(start - std::round(start)), std::abs(goal.y - std::round(goal.y)),
-                                  std::abs(goal.x), std::abs(goal.x - width), std::abs(pixels - 4)})
+                                  std::abs(goal.x), std::abs(goal.x - width), std::abs(pixels - 4),
+                                  std::abs(pixels - 24)})
       nearest_edge = std::min(nearest_edge, distance);
     Row row;
     row.inside = goal.x >= 0 && goal.y >= 0 && goal.x < width && goal.y < height;
     if (!row.inside) return row;
-    const int first = std::clamp(static_cast<int>(std::floor(start)), 0, single ? width - 1 : width - 4);
+    const int first = std::clamp(static_cast<int>(std::floor(start)), 0, single ? width - 1 : width - 1 - 3 * spacing);
     const glm::dvec3 to_line = x * right + y * down;
     const double steepness = std::min(facing(), -1e-3) / glm::length(pixel_ray(image_.view, x_, y_).direction);
     row.plane = -glm::dot(normal, to_line) / steepness;
     const double beyond = (1 - glm::dot(sight, glm::dvec3(offset / pixels, 0))) * radius_ * sight.z;
     for (int k = 0; k < 4; ++k) {
-      const int column = single ? first : first + k, line = static_cast<int>(std::floor(goal.y));
+      const int column = single ? first : first + k * spacing, line = static_cast<int>(std::floor(goal.y));
       const double depth = image_.depth_at(column, line), step = depth - centre.z;
       const glm::dvec3 there = (pixel_ray(image_.view, column, line).at(depth) - centre) / radius_;
       row.doubtful = row.doubtful || std::abs(step - beyond) < 1e-4 * radius_;
