@@ -9,7 +9,8 @@
 #ifndef W
 #define W 1
 #endif
-#define SHARED static inline
+// Of a function that is called twice PoCL would else make a call, with every vector through memory.
+#define SHARED static inline __attribute__((always_inline))
 #define PRIVATE private
 #define MATRIX global const float*  // rows of a record's matrix
 #define ELEMENT float               // one number of a record
