@@ -13,6 +13,17 @@
 #define FALLOFF 0
 #endif
 
+/// `sum` and what is seen through one pixel of a row: -DTHICKNESS: twice what is hidden of the line, else what is open.
+/// What is `step` metres beyond the fragment hides a line from step scale + a on, nothing of it from `beyond` on.
+SHARED real with_pixel(real sum, real step, real beyond, real scale, real a, real half_length, real end) {
+  const real seen = PICK(step > beyond, FAR_AWAY, fma(step, scale, a));
+#ifdef THICKNESS
+  return add_hidden(sum, half_length, seen, end, FALLOFF);
+#else
+  return sum + line_integral(half_length, at_most(seen, end), FALLOFF);
+#endif
+}
+
 SHARED real ball_obscurance(global const float* depth, global uint* validity, global const ObscuranceRow* rows,
                             uint count, uint item, Pixels at, Receiver to, truth drawn, float radius,
                             const ObscuranceSetting* setting) {
@@ -52,18 +63,17 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
     real a = fma(depths.along_x, next.x, depths.along_y * next.y);
     real scale = fma(depths.scale_of_a, a, depths.base_scale);
     a += plane + nearest;
-    real sum = REAL(0.0);
-    for (int k = 0; k < 4; ++k) {
-      const real step = next.depths.of[k] - to.depth;
-      const real seen = PICK(step > beyond, FAR_AWAY, fma(step, scale, a));
-#ifdef THICKNESS
-      sum = add_hidden(sum, half_length, seen, end, FALLOFF);
-#else
-      sum += line_integral(half_length, at_most(seen, end), FALLOFF);
-#endif
-      a += k == 1 ? depths.next_pair_a : depths.next_a;
-      scale += k == 1 ? depths.next_pair_scale : depths.next_scale;
-    }
+    // Not a loop, which PoCL would take through memory.
+    real sum = with_pixel(REAL(0.0), next.depths.a - to.depth, beyond, scale, a, half_length, end);
+    a += depths.next_a;
+    scale += depths.next_scale;
+    sum = with_pixel(sum, next.depths.b - to.depth, beyond, scale, a, half_length, end);
+    a += depths.next_pair_a;
+    scale += depths.next_pair_scale;
+    sum = with_pixel(sum, next.depths.c - to.depth, beyond, scale, a, half_length, end);
+    a += depths.next_a;
+    scale += depths.next_scale;
+    sum = with_pixel(sum, next.depths.d - to.depth, beyond, scale, a, half_length, end);
 #ifdef THICKNESS
     const real length = fma(REAL(-0.125), sum, line_integral(half_length, end, FALLOFF));
 #else

@@ -21,6 +21,7 @@ typedef struct {
   real normal_x, normal_y, normal_z;
   real ray_x, ray_y, ray_length;         // the ray through the fragment, forward component 1
   real sight_x, sight_y, sight_z;        // unit direction of that ray
+  real per_sight;                        // 1/(1 + sight_z)
   real facing;                           // normal times ray, negative
   real depth;                            // camera z, m
   real scale;                            // m across at the fragment's depth per unit of x/z; orthographic: 1
@@ -52,7 +53,8 @@ SHARED Receiver receiver_at(real x, real y, real depth, real normal_x, real norm
   to.depth = depth;
   to.scale = fma(perspective, depth, REAL(1.0) - perspective);
   // Two unit vectors square to the line of sight, (1 - a^2/(1+c), -ab/(1+c), -a) and its twin, seen along the ray.
-  const real over = to.ray_length - REAL(1.0) / (REAL(1.0) + to.sight_z);
+  to.per_sight = REAL(1.0) / (REAL(1.0) + to.sight_z);
+  const real over = to.ray_length - to.per_sight;
   to.spread_xx = fma(to.sight_x * to.sight_x, over, REAL(1.0));
   to.spread_xy = to.sight_x * to.sight_y * over;
   to.spread_yy = fma(to.sight_y * to.sight_y, over, REAL(1.0));
@@ -62,10 +64,11 @@ SHARED Receiver receiver_at(real x, real y, real depth, real normal_x, real norm
 
 SHARED Ball ball_around(Receiver to, real radius, real focal) {
   Ball ball;
+  const real per_scale = REAL(1.0) / to.scale;
   ball.per_radius = REAL(1.0) / radius;
-  ball.pixels = focal * radius / to.scale;
-  ball.per_pixel = REAL(1.0) / ball.pixels;
-  ball.widening = to.perspective * radius / to.scale;
+  ball.pixels = focal * radius * per_scale;
+  ball.per_pixel = to.scale * (REAL(1.0) / (focal * radius));
+  ball.widening = to.perspective * radius * per_scale;
   return ball;
 }
 
@@ -75,11 +78,11 @@ typedef struct {
 } BallVector;
 
 SHARED BallVector normal_in_ball(Receiver to) {
-  const real share = fma(to.normal_x, to.sight_x, to.normal_y * to.sight_y) / (REAL(1.0) + to.sight_z) + to.normal_z;
+  const real share = fma(fma(to.normal_x, to.sight_x, to.normal_y * to.sight_y), to.per_sight, to.normal_z);
   BallVector normal;
   normal.x = fma(-to.sight_x, share, to.normal_x);
   normal.y = fma(-to.sight_y, share, to.normal_y);
-  normal.z = to.facing / to.ray_length;
+  normal.z = to.facing * to.sight_z;
   return normal;
 }
 

@@ -52,10 +52,10 @@ SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, 
   return row;
 }
 
-/// Depths of two pairs of pixels, m, for each lane: 0 and 2 pixels from the row's first, then 1 and 3; 4 and 6 of a wide
-/// row.
+/// Depths of two pairs of pixels, m, for each lane: a and b 0 and 2 pixels from the row's first, c and d 1 and 3; 4 and 6
+/// of a wide row.
 typedef struct {
-  real of[4];
+  real a, b, c, d;
 } RowPixels;
 
 #ifdef __clang__
@@ -81,66 +81,61 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3), quarter(4, 5, 6, 7), quarter(8, 9, a, b), quarter(c, d, e, f))
 #endif
 
-/// The first and third of four from plane[index] on, the second and fourth of four from plane[second] on. Two loads a
-/// lane: among leaves a pixel says all or nothing, and what four cost is nearly what one costs.
-SHARED RowPixels row_pixels(global const float* plane, whole index, whole second) {
+#if W > 1
+/// From vectors of four neighbours for every fourth lane (from the first, second, third, fourth lane on) to vectors of
+/// one pixel for all lanes: the first, third, second, fourth neighbour.
+SHARED RowPixels by_pixel(real from_first, real from_second, real from_third, real from_fourth) {
+#define EVEN(i, j, k, l) x.s##i, x.s##k, y.s##i, y.s##k
+#define ODD(i, j, k, l) x.s##j, x.s##l, y.s##j, y.s##l
+  SETTLED(from_first);
+  SETTLED(from_second);
+  SETTLED(from_third);
+  SETTLED(from_fourth);
+  real x = from_first, y = from_second;
+  real low_even = (real)BY_QUARTERS(EVEN), low_odd = (real)BY_QUARTERS(ODD);
+  x = from_third, y = from_fourth;
+  real high_even = (real)BY_QUARTERS(EVEN), high_odd = (real)BY_QUARTERS(ODD);
+  SETTLED(low_even);
+  SETTLED(low_odd);
+  SETTLED(high_even);
+  SETTLED(high_odd);
   RowPixels row;
+  x = low_even, y = high_even;
+  row.a = (real)BY_QUARTERS(EVEN);
+  row.b = (real)BY_QUARTERS(ODD);
+  x = low_odd, y = high_odd;
+  row.c = (real)BY_QUARTERS(EVEN);
+  row.d = (real)BY_QUARTERS(ODD);
+#undef EVEN
+#undef ODD
+  return row;
+}
+#endif
+
+/// Of plane[index] to plane[index + 6], which must all be there, those that `RowPixels` names. Two loads a lane, the
+/// second three further on: among leaves a pixel says all or nothing, and what four cost is nearly what one costs.
+SHARED RowPixels row_pixels(global const float* plane, whole index, truth wide) {
 #if W == 1
-  const float4 four = FOUR_FROM(plane, index), others = FOUR_FROM(plane, second);
-  row.of[0] = four.x;
-  row.of[1] = four.z;
-  row.of[2] = others.y;
-  row.of[3] = others.w;
+  const float4 four = FOUR_FROM(plane, index), further = FOUR_FROM(plane, index + 3);
+  RowPixels row = {four.x, four.z, four.y, four.w};
+  const RowPixels next = {further.x, further.z, further.y, further.w};
 #else
-#define FIRST(i, j, k, l) FOUR_FROM(plane, from.s##i)
-#define SECOND(i, j, k, l) FOUR_FROM(plane, from.s##j)
-#define THIRD(i, j, k, l) FOUR_FROM(plane, from.s##k)
-#define FOURTH(i, j, k, l) FOUR_FROM(plane, from.s##l)
-#define PAIRS(i, j, k, l) x.s##i, x.s##k, y.s##j, y.s##l
-  whole from = index;
-  real a = (real)BY_QUARTERS(FIRST), b = (real)BY_QUARTERS(SECOND), c = (real)BY_QUARTERS(THIRD),
-       d = (real)BY_QUARTERS(FOURTH);
-  from = second;
-  real x = a, y = (real)BY_QUARTERS(FIRST);
-  a = (real)BY_QUARTERS(PAIRS);
-  x = b, y = (real)BY_QUARTERS(SECOND);
-  b = (real)BY_QUARTERS(PAIRS);
-  x = c, y = (real)BY_QUARTERS(THIRD);
-  c = (real)BY_QUARTERS(PAIRS);
-  x = d, y = (real)BY_QUARTERS(FOURTH);
-  d = (real)BY_QUARTERS(PAIRS);
-  SETTLED(a);
-  SETTLED(b);
-  SETTLED(c);
-  SETTLED(d);
+#define FIRST(i, j, k, l) FOUR_FROM(plane, index.s##i)
+#define SECOND(i, j, k, l) FOUR_FROM(plane, index.s##j)
+#define THIRD(i, j, k, l) FOUR_FROM(plane, index.s##k)
+#define FOURTH(i, j, k, l) FOUR_FROM(plane, index.s##l)
+#define ROW by_pixel((real)BY_QUARTERS(FIRST), (real)BY_QUARTERS(SECOND), (real)BY_QUARTERS(THIRD), (real)BY_QUARTERS(FOURTH))
+  RowPixels row = ROW;
+  plane += 3;
+  const RowPixels next = ROW;
+#undef ROW
 #undef FIRST
 #undef SECOND
 #undef THIRD
 #undef FOURTH
-#undef PAIRS
-#define LOW(i, j, k, l) x.s##i, y.s##i, x.s##j, y.s##j
-#define HIGH(i, j, k, l) x.s##k, y.s##k, x.s##l, y.s##l
-#define LOW_PAIRS(i, j, k, l) x.s##i, x.s##j, y.s##i, y.s##j
-#define HIGH_PAIRS(i, j, k, l) x.s##k, x.s##l, y.s##k, y.s##l
-  x = a, y = b;
-  real ab_low = (real)BY_QUARTERS(LOW), ab_high = (real)BY_QUARTERS(HIGH);
-  x = c, y = d;
-  real cd_low = (real)BY_QUARTERS(LOW), cd_high = (real)BY_QUARTERS(HIGH);
-  SETTLED(ab_low);
-  SETTLED(ab_high);
-  SETTLED(cd_low);
-  SETTLED(cd_high);
-  x = ab_low, y = cd_low;
-  row.of[0] = (real)BY_QUARTERS(LOW_PAIRS);
-  row.of[1] = (real)BY_QUARTERS(HIGH_PAIRS);
-  x = ab_high, y = cd_high;
-  row.of[2] = (real)BY_QUARTERS(LOW_PAIRS);
-  row.of[3] = (real)BY_QUARTERS(HIGH_PAIRS);
-#undef LOW
-#undef HIGH
-#undef LOW_PAIRS
-#undef HIGH_PAIRS
 #endif
+  row.c = PICK(wide, next.c, row.c);
+  row.d = PICK(wide, next.d, row.d);
   return row;
 }
 
@@ -162,19 +157,22 @@ SHARED Row row_at(global const float* depth, Pixels at, Ball ball, RowDepths dep
   whole pixel_x = TO_WHOLE(at_least(at_most(u - middle, end_x - pixels), REAL(0.0)));
   const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
   const whole line = pixel_y * (whole)(setting->width);
-  // In images narrower than four pixels a read reaches into the next row, but stays in the plane.
+  // In images narrower than four pixels a read reaches into the next row, but stays in the plane, which is longer than the image.
   const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
   Row row;
   row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);
-  row.depths = row_pixels(depth, index, PICK(depths.wide, index + 3, index));
+  row.depths = row_pixels(depth, index, depths.wide);
   if (any_single) {
     const whole one_x = TO_WHOLE(at_least(at_most(u, end_x - REAL(1.0)), REAL(0.0)));
     const whole place = line + one_x - index;
-    real one = row.depths.of[0];
-    one = PICK(place == (whole)(2), row.depths.of[1], one);
-    one = PICK(place == (whole)(1), row.depths.of[2], one);
-    one = PICK(place == (whole)(3), row.depths.of[3], one);
-    for (int k = 0; k < 4; ++k) row.depths.of[k] = PICK(depths.single, one, row.depths.of[k]);
+    real one = row.depths.a;
+    one = PICK(place == (whole)(2), row.depths.b, one);
+    one = PICK(place == (whole)(1), row.depths.c, one);
+    one = PICK(place == (whole)(3), row.depths.d, one);
+    row.depths.a = PICK(depths.single, one, row.depths.a);
+    row.depths.b = PICK(depths.single, one, row.depths.b);
+    row.depths.c = PICK(depths.single, one, row.depths.c);
+    row.depths.d = PICK(depths.single, one, row.depths.d);
     pixel_x = PICK(depths.single, one_x, pixel_x);
   }
   const real first_x = TO_REAL(pixel_x), first_y = TO_REAL(pixel_y);
