@@ -15,12 +15,17 @@
 
 /// `sum` and what is seen through one pixel of a row: -DTHICKNESS: twice what is hidden of the line, else what is open.
 /// What is `step` metres beyond the fragment hides a line from step scale + a on, nothing of it from `beyond` on.
-SHARED real with_pixel(real sum, real step, real beyond, real scale, real a, real half_length, real end) {
+/// Lengths from where the line enters the ball; `length`: to its end.
+SHARED real with_pixel(real sum, real step, real beyond, real scale, real a, real half_length, real length) {
   const real seen = PICK(step > beyond, FAR_AWAY, fma(step, scale, a));
-#ifdef THICKNESS
-  return add_hidden(sum, half_length, seen, end, FALLOFF);
+#if defined(THICKNESS) && defined(QUADRATIC)
+  return add_hidden_quadratic(sum, half_length, seen - half_length, length - half_length);
+#elif defined(THICKNESS)
+  return add_hidden(sum, seen, length);
+#elif defined(QUADRATIC)
+  return sum + line_integral(half_length, at_most(seen, length) - half_length, 1);
 #else
-  return sum + line_integral(half_length, at_most(seen, end), FALLOFF);
+  return sum + at_least(at_most(seen, length), REAL(0.0));
 #endif
 }
 
@@ -40,7 +45,7 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
   const RowDepths depths = row_depths(to, ball, (real)(radius), per_unit, setting);
   const int any_single = ANY(depths.single);
 #ifdef THICKNESS
-  const real nearest = fma(-middle.z, per_unit, REAL(1.0));  // of backs: of surfaces they are a unit behind
+  const real nearest = fma(-middle.z, per_unit, REAL(1.0));  // of backs: from surfaces they are a unit behind
 #else
   const real nearest = -middle.z;
 #endif
@@ -61,25 +66,25 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
     const real end = half_length;  // of the ball on top of it, the plane cuts nothing
 #endif
     real a = fma(depths.along_x, next.x, depths.along_y * next.y);
+    const real length = end + half_length;
     real scale = fma(depths.scale_of_a, a, depths.base_scale);
-    a += plane + nearest;
+    a += plane + (nearest + half_length);
     // Not a loop, which PoCL would take through memory.
-    real sum = with_pixel(REAL(0.0), next.depths.a - to.depth, beyond, scale, a, half_length, end);
+    real sum = with_pixel(REAL(0.0), next.depths.a - to.depth, beyond, scale, a, half_length, length);
     a += depths.next_a;
     scale += depths.next_scale;
-    sum = with_pixel(sum, next.depths.b - to.depth, beyond, scale, a, half_length, end);
+    sum = with_pixel(sum, next.depths.b - to.depth, beyond, scale, a, half_length, length);
     a += depths.next_pair_a;
     scale += depths.next_pair_scale;
-    sum = with_pixel(sum, next.depths.c - to.depth, beyond, scale, a, half_length, end);
+    sum = with_pixel(sum, next.depths.c - to.depth, beyond, scale, a, half_length, length);
     a += depths.next_a;
     scale += depths.next_scale;
-    sum = with_pixel(sum, next.depths.d - to.depth, beyond, scale, a, half_length, end);
+    sum = with_pixel(sum, next.depths.d - to.depth, beyond, scale, a, half_length, length);
 #ifdef THICKNESS
-    const real length = fma(REAL(-0.125), sum, line_integral(half_length, end, FALLOFF));
+    open = fma(share, fma(REAL(-0.125), sum, line_integral(half_length, end, FALLOFF)), open);
 #else
-    const real length = REAL(0.25) * sum;
+    open = fma(REAL(0.25) * share, sum, open);
 #endif
-    open = fma(share, length, open);
 #ifdef NORMALS
     flat = fma(share, line_integral(half_length, end, FALLOFF), flat);
 #else

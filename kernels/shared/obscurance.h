@@ -122,17 +122,19 @@ SHARED real line_integral(real half_length, real depth, int quadratic) {
   return fma(end, fma(end * end, REAL(-0.33333333333333333), square), REAL(0.66666666666666667) * square * half_length);
 }
 
-/// `sum` and twice what a surface hides of a line from where it enters the ball to `end`, within the line: all at the
-/// surface, evenly less up to a unit of length behind it, at `back`, where it ends. Section 4.3 with openness that
-/// grows evenly instead of a step: of leaves behind leaves nothing is known but that the farther behind the first, the
-/// less they hide. All lengths in that unit.
-SHARED real add_hidden(real sum, real half_length, real back, real end, int quadratic) {
-  if (!quadratic) {
-    // The antiderivative of 1 - z is -(1 - z)^2/2.
-    const real first = at_least(at_most(back + half_length, REAL(1.0)), REAL(0.0));
-    const real last = at_least(at_most(back - end, REAL(1.0)), REAL(0.0));
-    return fma(-last, last, fma(first, first, sum));
-  }
+/// `sum` and twice what a surface hides of a line of this length with constant falloff: all at the surface, evenly less
+/// up to a unit of length behind it, at `back`, from where the line enters the ball, where it ends. Section 4.3 with
+/// openness that grows evenly instead of a step: of leaves behind leaves nothing is known but that the farther behind
+/// the first, the less they hide. All lengths in that unit.
+SHARED real add_hidden(real sum, real back, real length) {
+  // The antiderivative of 1 - z is -(1 - z)^2/2.
+  const real first = at_least(at_most(back, REAL(1.0)), REAL(0.0));
+  const real last = at_least(at_most(back - length, REAL(1.0)), REAL(0.0));
+  return fma(-last, last, fma(first, first, sum));
+}
+
+/// Likewise with quadratic falloff; `back` and `end`, of the line, from its middle.
+SHARED real add_hidden_quadratic(real sum, real half_length, real back, real end) {
   const real from = at_least(at_most(back - REAL(1.0), end), -half_length),
              to = at_least(at_most(back, end), -half_length);
   // Of z (half^2 - z^2), for the part that grows.

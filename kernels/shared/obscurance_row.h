@@ -65,11 +65,18 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #define FOUR_FROM(plane, index) vload4(0, (plane) + (index))
 #endif
 
-// An end to what the compiler merges: it would make the shuffles of both steps one, of a dozen steps with a table each.
 #if defined(__AVX512F__) && W == 16
+// An end to what the compiler merges: it would make the shuffles of both steps one, of a dozen steps with a table each.
 #define SETTLED(vector) __asm__("" : "+v"(vector))
+// Lanes' numbers from memory: a third of the instructions that take them out of a vector.
+#define NUMBERS_OF(name, vector) \
+  __asm__("" : "+m"(vector));    \
+  const PRIVATE int* name = (const PRIVATE int*)&(vector)
+#define NUMBER(name, lane) name[0x##lane]
 #else
 #define SETTLED(vector)
+#define NUMBERS_OF(name, vector) const whole name = vector
+#define NUMBER(name, lane) name.s##lane
 #endif
 
 // Two vectors' elements by turns, or by pairs, within every four: what transposes four vectors without crossing lanes.
@@ -120,10 +127,11 @@ SHARED RowPixels row_pixels(global const float* plane, whole index, truth wide) 
   RowPixels row = {four.x, four.z, four.y, four.w};
   const RowPixels next = {further.x, further.z, further.y, further.w};
 #else
-#define FIRST(i, j, k, l) FOUR_FROM(plane, index.s##i)
-#define SECOND(i, j, k, l) FOUR_FROM(plane, index.s##j)
-#define THIRD(i, j, k, l) FOUR_FROM(plane, index.s##k)
-#define FOURTH(i, j, k, l) FOUR_FROM(plane, index.s##l)
+  NUMBERS_OF(from, index);
+#define FIRST(i, j, k, l) FOUR_FROM(plane, NUMBER(from, i))
+#define SECOND(i, j, k, l) FOUR_FROM(plane, NUMBER(from, j))
+#define THIRD(i, j, k, l) FOUR_FROM(plane, NUMBER(from, k))
+#define FOURTH(i, j, k, l) FOUR_FROM(plane, NUMBER(from, l))
 #define ROW by_pixel((real)BY_QUARTERS(FIRST), (real)BY_QUARTERS(SECOND), (real)BY_QUARTERS(THIRD), (real)BY_QUARTERS(FOURTH))
   RowPixels row = ROW;
   plane += 3;

@@ -89,8 +89,9 @@ class Ball {
     return seen;
   }
 
-  /// Of four pixels about the disc's point (x, y), every second one of a large ball's: how deep the line through that point first meets a surface along
-  /// the sight, radii, were it parallel to the tangent plane through what the pixel shows.
+  /// Of four pixels about the disc's point (x, y), every second one of a large ball's: how deep the line through that
+  /// point first meets a surface along the sight, radii, were it parallel to the tangent plane through what the pixel
+  /// shows.
   struct Row {
     bool inside = false;
     double seen[4] = {};
@@ -103,9 +104,9 @@ class Ball {
     const bool single = pixels < 4 || width < 4, wide = pixels >= 24 && width >= 7;
     const int spacing = wide ? 2 : 1;
     const double start = single ? goal.x : goal.x - 1.5 * spacing;
-    for (const double distance : {std::abs(start - std::round(start)), std::abs(goal.y - std::round(goal.y)),
-                                  std::abs(goal.x), std::abs(goal.x - width), std::abs(pixels - 4),
-                                  std::abs(pixels - 24)})
+    for (const double distance :
+         {std::abs(start - std::round(start)), std::abs(goal.y - std::round(goal.y)), std::abs(goal.x),
+          std::abs(goal.x - width), std::abs(pixels - 4), std::abs(pixels - 24)})
       nearest_edge = std::min(nearest_edge, distance);
     Row row;
     row.inside = goal.x >= 0 && goal.y >= 0 && goal.x < width && goal.y < height;
