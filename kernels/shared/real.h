@@ -9,8 +9,12 @@
 #ifndef W
 #define W 1
 #endif
+#ifdef __OPTIMIZE__
 // Of a function that is called twice PoCL would else make a call, with every vector through memory.
 #define SHARED static inline __attribute__((always_inline))
+#else
+#define SHARED static inline  // oclgrind interprets calls, and knows not all that stands in their place
+#endif
 #define PRIVATE private
 #define MATRIX global const float*  // rows of a record's matrix
 #define ELEMENT float               // one number of a record
