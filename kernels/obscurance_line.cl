@@ -1,6 +1,6 @@
 // `obscurance-line`: the open share of the ball around each fragment from lines along the sight (Loos & Sloan 2010
-// section 4.1), over that of a flat surface with the same lines. Of each line four neighbouring pixels of a row are
-// asked and their mean taken. A line whose point lies outside the image counts for neither. -DNORMALS: clamped by the
+// section 4.1), over that of a flat surface with the same lines. Of each line four pixels of a row are asked and
+// their mean taken. A line whose point lies outside the image counts for neither. -DNORMALS: clamped by the
 // tangent plane (4.4); -DCOSINE: of the ball on top of that plane; -DQUADRATIC: falloff 1 - r^2; -DTHICKNESS: surfaces
 // end (4.3); -DRADII=1, 2: product or minimum of two radii. One work-item per W fragments; planes are padded.
 #pragma OPENCL FP_CONTRACT OFF

@@ -68,7 +68,7 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #if defined(__AVX512F__) && W == 16
 // An end to what the compiler merges: it would make the shuffles of both steps one, of a dozen steps with a table each.
 #define SETTLED(vector) __asm__("" : "+v"(vector))
-// Lanes' numbers from memory: a third of the instructions that take them out of a vector.
+// Lanes' numbers by way of memory: one instruction each, where two or three take them out of a vector.
 #define NUMBERS_OF(name, vector) \
   __asm__("" : "+m"(vector));    \
   const PRIVATE int* name = (const PRIVATE int*)&(vector)
@@ -79,7 +79,7 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #define NUMBER(name, lane) name.s##lane
 #endif
 
-// Two vectors' elements by turns, or by pairs, within every four: what transposes four vectors without crossing lanes.
+// A vector from what `quarter` names of each four elements: shuffles that never leave their 128 bits.
 #if W == 4
 #define BY_QUARTERS(quarter) (quarter(0, 1, 2, 3))
 #elif W == 8
@@ -165,7 +165,8 @@ SHARED Row row_at(global const float* depth, Pixels at, Ball ball, RowDepths dep
   whole pixel_x = TO_WHOLE(at_least(at_most(u - middle, end_x - pixels), REAL(0.0)));
   const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
   const whole line = pixel_y * (whole)(setting->width);
-  // In images narrower than four pixels a read reaches into the next row, but stays in the plane, which is longer than the image.
+  // Reads may reach into the next row, which counts for nothing, or past the last one, where the plane goes on
+  // (`read_past_end`).
   const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
   Row row;
   row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);
