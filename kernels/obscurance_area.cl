@@ -87,7 +87,7 @@ SHARED real area_obscurance(global const float* mean, global const float* varian
     const real depth = PICK(perspective, REAL(1.0) / at_least(moments.mean, REAL(1e-18)), -moments.mean);
 #ifdef NORMALS
     const real own_variance = moments.plane_variance * slope_square * REAL(1.002);
-    const real plane = plane_depth(to, ball, o_x, o_y).depth;
+    const real plane = plane_depth(to, ball, o_x, o_y);
 #else
     const real own_variance = REAL(0.0);
     const real plane = FAR_AWAY;

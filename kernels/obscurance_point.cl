@@ -6,7 +6,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 #include "kernels/shared/obscurance_entry.h"
 
-/// What is on the plane, by rounding, hides nothing. Radii along the ray.
+/// What is on the plane, by rounding, hides nothing. Radii of camera depth.
 #define ON_THE_PLANE REAL(1e-4)
 
 /// The k-th of 16 directions over a hemisphere: equal steps in z, golden section in azimuth.
@@ -32,19 +32,25 @@ SHARED BallVector reflected(BallVector p, BallVector by, real length) {
 
 SHARED real along(BallVector p, BallVector q) { return fma(p.x, q.x, fma(p.y, q.y, p.z * q.z)); }
 
-/// Where a point of the ball is seen, radii from the fragment at the fragment's depth. What is not in front of the
-/// camera is seen far outside.
-SHARED DiscPoint in_image(Receiver to, Ball ball, BallVector p) {
+/// Where a point of the ball is seen, radii from the fragment at the fragment's depth.
+typedef struct {
+  real x, y;
+  truth in_front;  // of the camera: else it is nowhere in the image
+} PointInImage;
+
+SHARED PointInImage in_image(Receiver to, Ball ball, BallVector p) {
   const real beyond = fma(p.z, to.sight_z, -fma(p.x, to.sight_x, p.y * to.sight_y));
-  const real scale = REAL(1.0) / at_least(fma(ball.widening, beyond, REAL(1.0)), REAL(1e-3));
-  DiscPoint seen;
+  const real depth = fma(ball.widening, beyond, REAL(1.0)), scale = REAL(1.0) / at_least(depth, REAL(1e-3));
+  PointInImage seen;
   seen.x = fma(to.spread_xx, p.x, to.spread_xy * p.y) * scale;
   seen.y = fma(to.spread_xy, p.x, to.spread_yy * p.y) * scale;
+  seen.in_front = depth > REAL(1e-3);
   return seen;
 }
 
 #ifdef NORMALS
-/// How high above the tangent plane what the pixel shows is, radii, where its ray meets the plane.
+/// Of what a pixel shows above the tangent plane, radii. Heights are comparable only where the pixel's ray falls
+/// towards the plane; a plane that counts as seen edge-on has none that are.
 typedef struct {
   real height;
   truth is_known;  // the ray falls towards the plane
@@ -86,16 +92,17 @@ SHARED real ball_obscurance(global const float* depth, global uint* validity, gl
     const real height = along(p, normal);
     p = reflected(p, normal, at_most(height, REAL(0.0)));
 #endif
-    const DiscPoint goal = in_image(to, ball, p);
-    const Neighbour next = neighbour_at(depth, at, ball, goal.x, goal.y, setting);
+    const PointInImage goal = in_image(to, ball, p);
+    Neighbour next = neighbour_at(depth, at, ball, goal.x, goal.y, setting);
+    next.inside &= goal.in_front;
     const real share = PICK(next.inside, (real)(rows[row].share), REAL(0.0));
     const real hidden = p.z - seen_depth(to, ball, next.x, next.y, next.depth);
     truth is_open = hidden < REAL(0.0);
 #ifdef NORMALS
     // The pixel's centre is not quite where the point is: along the plane it is carried there. On a ray that falls
-    // towards the plane, what is higher is in front.
+    // towards the plane, what is higher is in front; a depth that is no number hides nothing.
     const SeenHeight seen = seen_height(to, ball, next);
-    is_open = PICK(seen.is_known, seen.height + on_plane < fabs(height), is_open);
+    is_open = PICK(seen.is_known, NOT(seen.height + on_plane >= fabs(height)), is_open);
 #endif
 #ifdef THICKNESS
     const real per_thickness = (real)(0.5f * radius / setting->thickness);

@@ -1,7 +1,8 @@
 // Volumetric obscurance (Loos & Sloan 2010 section 4): how much of the ball around a fragment is in front of the depth
-// plane. Here the ball's disc faces the fragment's own line of sight, not the camera's axis, and the fragment's tangent
-// plane is cut with each sample's own ray, so that a flat surface is open at any field of view (FORMULAS.md).
-// Lengths along the line of sight are in units of the ball's radius, away from the camera, from the fragment.
+// plane. Here the ball's disc faces the fragment's own line of sight, not the camera's axis, and samples are compared
+// with the fragment's tangent plane where they are seen (lines and points by height above it, areas by where their own
+// ray cuts it), so that a flat surface is open at any field of view (FORMULAS.md). Lengths along the line of sight are
+// in units of the ball's radius, away from the camera, from the fragment.
 #ifndef UNDERSTORY_OBSCURANCE_H
 #define UNDERSTORY_OBSCURANCE_H
 
@@ -86,12 +87,6 @@ SHARED BallVector normal_in_ball(Receiver to) {
   return normal;
 }
 
-/// Where the ray of the pixel that is (x, y) radii away in the image meets the tangent plane.
-typedef struct {
-  real depth;       // along the line of sight, radii
-  truth is_beyond;  // the ray never meets the plane
-} PlaneDepth;
-
 /// Depth along the line of sight of a point on that ray whose camera z is `depth_step` radii beyond the fragment's.
 SHARED real along_sight(Receiver to, Ball ball, real x, real y, real depth_step) {
   const real across = fma(to.sight_x, x, to.sight_y * y);
@@ -99,13 +94,12 @@ SHARED real along_sight(Receiver to, Ball ball, real x, real y, real depth_step)
   return fma(depth_step, at_least(fma(ball.widening, across, to.ray_length), REAL(1e-3)), across);
 }
 
-SHARED PlaneDepth plane_depth(Receiver to, Ball ball, real x, real y) {
+/// Where the ray of the pixel that is (x, y) radii away in the image meets the tangent plane: depth along the line of
+/// sight, radii; FAR_AWAY where it never does.
+SHARED real plane_depth(Receiver to, Ball ball, real x, real y) {
   const real rise = fma(to.normal_x, x, to.normal_y * y);
   const real facing = fma(ball.widening, rise, to.facing);
-  PlaneDepth plane;
-  plane.is_beyond = facing > EDGE_ON;
-  plane.depth = PICK(plane.is_beyond, FAR_AWAY, along_sight(to, ball, x, y, -rise / at_most(facing, EDGE_ON)));
-  return plane;
+  return PICK(facing > EDGE_ON, FAR_AWAY, along_sight(to, ball, x, y, -rise / at_most(facing, EDGE_ON)));
 }
 
 /// Depth along the line of sight of what the pixel shows; background, whose depth is infinite, is far away.

@@ -22,10 +22,10 @@ typedef struct {
   real next_a;            // of a, from the first of a pair of pixels to the second; 0 where one stands for the line
   real next_pair_a;       // from the second of the first pair to the first of the second, likewise
   real next_scale, next_pair_scale;  // of what `step` is multiplied with, likewise
-  real rise_x, rise_y;    // of a, for a radius in the image
-  real radius_of_step;    // `step` of what is a radius beyond the fragment on its own ray, m
-  truth single;           // one pixel stands for a line
-  truth wide;             // every second pixel
+  real rise_x, rise_y;               // of a, for a radius in the image
+  real radius_of_step;               // `step` of what is a radius beyond the fragment on its own ray, m
+  truth single;                      // one pixel stands for a line
+  truth wide;                        // every second pixel
 } RowDepths;
 
 SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, const ObscuranceSetting* setting) {
@@ -52,8 +52,8 @@ SHARED RowDepths row_depths(Receiver to, Ball ball, real radius, real per_unit, 
   return row;
 }
 
-/// Depths of two pairs of pixels, m, for each lane: a and b 0 and 2 pixels from the row's first, c and d 1 and 3; 4 and 6
-/// of a wide row.
+/// Depths of four pixels for each lane, m: a and b of pixels 0 and 2 of the row, c and d of 1 and 3, of a wide row of 4
+/// and 6. In this order shuffles of even and odd elements bring them.
 typedef struct {
   real a, b, c, d;
 } RowPixels;
@@ -65,10 +65,11 @@ typedef float4 loose_float4 __attribute__((aligned(4)));
 #define FOUR_FROM(plane, index) vload4(0, (plane) + (index))
 #endif
 
-#if defined(__AVX512F__) && W == 16
+#if defined(__clang__) && defined(__AVX512F__) && W == 16
 // An end to what the compiler merges: it would make the shuffles of both steps one, of a dozen steps with a table each.
 #define SETTLED(vector) __asm__("" : "+v"(vector))
-// Lanes' numbers by way of memory: one instruction each, where two or three take them out of a vector.
+// Lanes' numbers by way of memory: one instruction each, where two or three take them out of a vector. `vector` is a
+// variable of the function's own, which the compiler must think written.
 #define NUMBERS_OF(name, vector) \
   __asm__("" : "+m"(vector));    \
   const PRIVATE int* name = (const PRIVATE int*)&(vector)
@@ -132,7 +133,8 @@ SHARED RowPixels row_pixels(global const float* plane, whole index, truth wide) 
 #define SECOND(i, j, k, l) FOUR_FROM(plane, NUMBER(from, j))
 #define THIRD(i, j, k, l) FOUR_FROM(plane, NUMBER(from, k))
 #define FOURTH(i, j, k, l) FOUR_FROM(plane, NUMBER(from, l))
-#define ROW by_pixel((real)BY_QUARTERS(FIRST), (real)BY_QUARTERS(SECOND), (real)BY_QUARTERS(THIRD), (real)BY_QUARTERS(FOURTH))
+#define ROW \
+  by_pixel((real)BY_QUARTERS(FIRST), (real)BY_QUARTERS(SECOND), (real)BY_QUARTERS(THIRD), (real)BY_QUARTERS(FOURTH))
   RowPixels row = ROW;
   plane += 3;
   const RowPixels next = ROW;
@@ -165,8 +167,9 @@ SHARED Row row_at(global const float* depth, Pixels at, Ball ball, RowDepths dep
   whole pixel_x = TO_WHOLE(at_least(at_most(u - middle, end_x - pixels), REAL(0.0)));
   const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
   const whole line = pixel_y * (whole)(setting->width);
-  // Reads may reach into the next row, which counts for nothing, or past the last one, where the plane goes on
-  // (`read_past_end`).
+  // Seven pixels are read also where a row is four: from the next row, which counts for nothing, or past the last,
+  // where the plane goes on (`read_past_end`). Only in images narrower than four pixels the start itself may be too
+  // late.
   const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
   Row row;
   row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);

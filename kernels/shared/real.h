@@ -13,7 +13,7 @@
 // Of a function that is called twice PoCL would else make a call, with every vector through memory.
 #define SHARED static inline __attribute__((always_inline))
 #else
-#define SHARED static inline  // oclgrind interprets calls, and knows not all that stands in their place
+#define SHARED static inline  // -O0 is oclgrind's (under_oclgrind.sh), which lacks an intrinsic of inlined calls
 #endif
 #define PRIVATE private
 #define MATRIX global const float*  // rows of a record's matrix

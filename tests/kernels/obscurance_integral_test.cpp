@@ -12,12 +12,13 @@ namespace {
 constexpr int many = 1024;
 constexpr double golden_turn = 2 * std::numbers::pi * 0.6180339887498949;
 
-/// Of equal shares of the ball: lines through the disc, or points. A copy of no set in the tables.
+/// Of equal shares of the ball: lines through the disc, or points. None of the published sets.
 std::vector<ObscuranceSample> many_samples(bool lines) {
   std::vector<ObscuranceSample> samples;
   for (int i = 0; i < many; ++i) {
     const double share = (i + 0.5) / many, turn = golden_turn * i;
-    // The ball's volume within r of its axis is 1 - (1 - r^2)^(3/2); points fill shells by steps of the golden section.
+    // The ball's volume within r of its axis is 1 - (1 - r^2)^(3/2); points fill shells by steps of an irrational
+    // number.
     const double shell = std::cbrt(std::fmod(i * 0.7548776662466927 + 0.5, 1.0)), z = lines ? 0 : 1 - 2 * share;
     const double r = lines ? std::sqrt(1 - std::pow(1 - share, 2.0 / 3)) : shell * std::sqrt(1 - z * z);
     samples.push_back({static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)),
@@ -26,28 +27,31 @@ std::vector<ObscuranceSample> many_samples(bool lines) {
   return samples;
 }
 
-/// RMSE of V from the integral, of the pixels whose balls are inside the image.
-double rmse_of(Device& device, const reference::DepthImage& image, bool lines, double radius) {
-  const std::vector<ObscuranceSample> samples = many_samples(lines);
-  const ObscuranceSampleSet set{samples, false, 0, 0, 0};
-  NearField options;
-  options.falloff = "cosine";
-  options.radius = radius;
+Shaded shade(Device& device, const reference::DepthImage& image, const ObscuranceSampleSet& set, bool lines,
+             const NearField& options) {
   FragmentPlanes planes = upload_image(device, image);
   Buffer<float> visibility(device, planes.padded_fragments, "visibility");
   if (lines)
     ObscuranceLinePass(device, options, set, 0).run(planes, image.view, visibility);
   else
     ObscurancePointPass(device, options, set, 0).run(planes, image.view, visibility);
-  const std::vector<float> shaded = first_of(visibility, planes.fragments);
-  const std::vector<std::uint32_t> codes = first_of(planes.validity, planes.fragments);
+  return {first_of(visibility, planes.fragments), first_of(planes.validity, planes.fragments)};
+}
+
+/// RMSE of V from the integral, of the pixels whose balls are inside the image.
+double rmse_of(Device& device, const reference::DepthImage& image, bool lines, double radius) {
+  const std::vector<ObscuranceSample> samples = many_samples(lines);
+  NearField options;
+  options.falloff = "cosine";
+  options.radius = radius;
+  const Shaded shaded = shade(device, image, {samples, false, 0, 0, 0}, lines, options);
   double sum = 0;
   int count = 0;
   for (int y = 0; y < image.view.height; ++y)
     for (int x = 0; x < image.view.width; ++x) {
       const auto i = static_cast<std::size_t>(y * image.view.width + x);
-      if (codes[i] != 0) continue;
-      const double error = double{shaded[i]} - reference::obscurance_integral(image, x, y, radius);
+      if (shaded.validity[i] != 0) continue;
+      const double error = double{shaded.visibility[i]} - reference::obscurance_integral(image, x, y, radius);
       sum += error * error;
       ++count;
     }
@@ -71,6 +75,23 @@ TEST(ObscuranceIntegral, IsWhatLinesAndPointsConvergeTo) {
           << field_of_view << ", " << pixels << " pixels";
     }
   }
+}
+
+TEST(ObscuranceIntegral, OfFewSamplesIsTheSameOnTheMean) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Device device;
+  NearField options;
+  options.radius = 0.5;
+  options.normals = "none";
+  const reference::DepthImage image = image_of(odd_view(96, 64, 1.0), patchwork(9, 3, 1.2));
+  const auto mean = [&](const ObscuranceSampleSet& set, bool lines) {
+    double sum = 0;
+    const Shaded shaded = shade(device, image, set, lines, options);
+    for (const float v : shaded.visibility) sum += double{v};
+    return sum / static_cast<double>(shaded.visibility.size());
+  };
+  EXPECT_NEAR(mean(line_samples(9), true), mean(line_samples(16), true), 0.01);
+  EXPECT_NEAR(mean(line_samples(16), true), mean(point_samples(33), false), 0.03);
 }
 
 }  // namespace

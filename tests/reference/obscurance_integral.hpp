@@ -27,7 +27,7 @@ inline std::optional<Chord> chord_of(const PixelRay& ray, const glm::dvec3& midd
 inline double obscurance_integral(const DepthImage& image, int x, int y, double radius) {
   const bool perspective = image.view.perspective;
   const glm::dvec3 middle = pixel_ray(image.view, x, y).at(image.depth_at(x, y)) + 0.5 * radius * image.normal_at(x, y);
-  // From the eye to z, of what the rays of one pixel sweep: z^2 dz of its solid angle; orthographic: dz.
+  // Up to camera z, of what the rays of one pixel sweep, whose section grows like z^2; orthographic: not at all.
   const auto swept = [&](double z) { return perspective ? z * z * z / 3 : z; };
   double open = 0, all = 0;
   for (int row = 0; row < image.view.height; ++row)
