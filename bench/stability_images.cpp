@@ -128,10 +128,6 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
     near.radius = std::min(eight_pixels, 5.0);
     add(name, fov > 150 ? odd_view(5 * width, 5 * height, in_radians(fov)) : view, patchwork(7, 10, near.radius), near)
         .extreme = fov != 60;
-    if (fov > 150 && sampling.name == "obscurance-point") {
-      all.back().stated_error = 0.25;
-      all.back().note = "where planes are seen edge-on, points of the set may count to either side: up to three of 12";
-    }
     if (sampling.name == "obscurance-area") {
       all.back().stated_error = fov > 150 ? 1e-3 : 1e-6;
       all.back().note =
