@@ -27,6 +27,10 @@ void check_range(const char* action, std::size_t bytes, std::size_t offset, std:
                                          std::to_string(size) + " bytes");
 }
 
+/// Bytes of memory after every buffer: kernels/shared/obscurance_row.h reads seven floats from the last four of a plane
+/// on.
+constexpr std::size_t read_past_end = 16;
+
 }  // namespace
 
 RawBuffer::RawBuffer(Device& device, std::size_t bytes, const char* what) : device_(&device), bytes_(bytes) {
@@ -35,7 +39,7 @@ RawBuffer::RawBuffer(Device& device, std::size_t bytes, const char* what) : devi
   const DeviceInfo& info = impl.info;
   cl_int status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
   const bool fits = bytes >> 20 <= info.max_allocation_mib && (impl.buffer_bytes + bytes) >> 20 <= info.memory_mib;
-  if (fits) memory_ = clCreateBuffer(impl.context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
+  if (fits) memory_ = clCreateBuffer(impl.context(), CL_MEM_READ_WRITE, bytes + read_past_end, nullptr, &status);
   if (status != CL_SUCCESS) {
     throw Error(ErrorKind::invalid_input, std::string(what) + " needs " + mebibytes(bytes) + " on device '" +
                                               info.name + "', which allows " + std::to_string(info.max_allocation_mib) +

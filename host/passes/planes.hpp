@@ -1,8 +1,7 @@
 // The fragments of a frame as planes on the device, and the owner table: what every visibility pass reads.
 //
-// The one rule of sizes: every plane holds `padded_fragments` elements, `fragments` and `read_past_end` rounded up to
-// whole blocks of `fragment_block`, so that a work-item of any width (W = 1 to 16) and a work-group of any tile has
-// memory of its own.
+// The one rule of sizes: every plane holds `padded_fragments` elements, `fragments` rounded up to whole blocks of
+// `fragment_block`, so that a work-item of any width (W = 1 to 16) and a work-group of any tile has memory of its own.
 // Passes compute the padding too; its values mean nothing. Rows of the owner table are clamped in the kernels.
 #pragma once
 #include <array>
@@ -19,11 +18,8 @@ namespace understory {
 /// Fragments in a block: the largest tile that a work-group handles, a multiple of every vector width.
 inline constexpr std::size_t fragment_block = 256;
 
-/// How far past the last fragment kernels/shared/obscurance_row.h reads: seven elements from the last four on.
-inline constexpr std::size_t read_past_end = 3;
-
 constexpr std::size_t padded_fragment_count(std::size_t fragments) {
-  return (fragments + read_past_end + fragment_block - 1) / fragment_block * fragment_block;
+  return (fragments + fragment_block - 1) / fragment_block * fragment_block;
 }
 
 /// One element per fragment, in rows of `row_length` from the top of the image; sizes are `padded_fragments`.
