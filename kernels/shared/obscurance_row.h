@@ -168,8 +168,8 @@ SHARED Row row_at(global const float* depth, Pixels at, Ball ball, RowDepths dep
   const whole pixel_y = TO_WHOLE(at_least(at_most(v, end_y - REAL(1.0)), REAL(0.0)));
   const whole line = pixel_y * (whole)(setting->width);
   // Seven pixels are read also where a row is four: from the next row, which counts for nothing, or past the last,
-  // where memory goes on (`read_past_end` of host/opencl/buffer.cpp). Only in images narrower than four pixels the start itself may be too
-  // late.
+  // where memory goes on (`read_past_end` of host/opencl/buffer.cpp). Only in images narrower than four pixels the
+  // start itself may be too late.
   const whole index = min(line + pixel_x, (whole)(max(setting->width * setting->height - 4, 0)));
   Row row;
   row.inside = (u >= REAL(0.0)) & (u < end_x) & (v >= REAL(0.0)) & (v < end_y);
