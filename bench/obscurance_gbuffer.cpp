@@ -86,6 +86,16 @@ void print_gbuffer(Device& device, const std::filesystem::path& data) {
       const Plane blurred = scene.blurred(shaded, options);
       rows.push_back({describe(way, options) + ", blur 4", error_statistics(picked(blurred), exact, {}, {})});
     }
+  for (const double thickness : {0.03, 0.05, 0.1})
+    for (const int rays : {4, 8, 16, 32, 64}) {
+      NearField options;
+      options.radius = 3;
+      options.thickness = thickness;
+      const ObscuranceWay way{Kind::rays, rays, 1};
+      const Plane shaded = scene.shade(way, options), blurred = scene.blurred(shaded, options);
+      rows.push_back({describe(way, options), error_statistics(picked(shaded), exact, {}, {})});
+      rows.push_back({describe(way, options) + ", blur 4", error_statistics(picked(blurred), exact, {}, {})});
+    }
   const auto best = std::min_element(rows.begin(), rows.end(),
                                      [](const Row& a, const Row& b) { return a.errors.rmse < b.errors.rmse; });
   fmt::print(

@@ -13,6 +13,7 @@
 #include "host/passes/obscurance_blur.hpp"
 #include "host/passes/obscurance_line.hpp"
 #include "host/passes/obscurance_point.hpp"
+#include "host/passes/screen_rays.hpp"
 
 namespace understory {
 namespace {
@@ -26,6 +27,7 @@ std::string ObscuranceWay::name() const {
   const std::string number = " " + std::to_string(samples);
   if (kind == Kind::lines) return "lines" + number;
   if (kind == Kind::points) return "points" + number;
+  if (kind == Kind::rays) return "rays" + number;
   return "areas" + number + (area_spread == 1 ? ", sigma" : ", sqrt(3) sigma");
 }
 
@@ -88,6 +90,10 @@ std::function<void()> ObscuranceScene::runner(const ObscuranceWay& way, const Ne
     };
   if (way.kind == ObscuranceWay::Kind::points)
     return [this, pass = std::make_shared<ObscurancePointPass>(device_, options, point_samples(way.samples))] {
+      pass->run(planes_, view_, visibility_);
+    };
+  if (way.kind == ObscuranceWay::Kind::rays)
+    return [this, pass = std::make_shared<ScreenRaysPass>(device_, options, way.samples)] {
       pass->run(planes_, view_, visibility_);
     };
   const auto gather = std::make_shared<DepthMomentsPass>(device_);

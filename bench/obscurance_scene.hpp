@@ -11,9 +11,9 @@
 
 namespace understory {
 
-/// A way to sample obscurance, and what the table calls it.
+/// A way to sample obscurance, or rays, and what the table calls it.
 struct ObscuranceWay {
-  enum class Kind { lines, points, areas } kind = Kind::lines;
+  enum class Kind { lines, points, areas, rays } kind = Kind::lines;
   int samples = 5;
   double area_spread = 1;  // areas: half-width of the box in standard deviations
   std::string name() const;

@@ -164,15 +164,15 @@ struct EnvironmentSource {
   double gloss = 0;           // half-angle of the cone of sky that occluders mirror, radians; 0: they are matt
 };
 
-/// How the obscurance methods sample the neighbourhood of a fragment (Loos & Sloan 2010).
+/// How the near field samples the neighbourhood of a fragment (Loos & Sloan 2010; `screen-rays` is our own).
 struct NearField {
-  int samples = 0;                   // 0: the method's own: 5 lines, 12 points, 1 area
-  double radius = 0.25;              // m, of the ball that is looked at
+  int samples = 0;                   // 0: the method's own: 5 lines, 12 points, 1 area, 16 rays
+  double radius = 0.25;              // m, of the ball that is looked at; length of rays
   double second_radius = 0;          // m; 0: one radius only
   std::string radii = "product";     // of two radii: product, minimum
   std::string falloff = "constant";  // constant, quadratic, cosine
   std::string normals = "buffer";    // buffer, depth (made from it), none
-  double thickness = 0;              // m behind what is seen, on the mean; 0: no end, in frames 5 radii
+  double thickness = 0;              // m behind what is seen, on the mean; 0: no end, in frames the method's own
   int blur = 0;                      // radius of the edge-aware blur, pixels; 0: none
   bool half_resolution = false;
   int guard = 0;                    // pixels drawn around the image for the samples that leave it
@@ -199,7 +199,7 @@ struct Methods {
   std::string occluders = "solid-angle-cosine";  // solid-angle, -exact, -cosine, grid, grid-cone, none
   std::string combine = "union";  // how `grid-cone` puts occluders together: multiply, simple, merge, union
   GridChoice grid = {};
-  std::string near = "none";  // obscurance-point, obscurance-line, obscurance-area, none
+  std::string near = "none";  // obscurance-point, -line, -area, screen-rays, none
   NearField near_field = {};  // of `near`
   double ambient = 0.5;       // the constant of `ambient`
 };

@@ -30,7 +30,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool scene_flag
   command.add_option("--crowns", options.crowns, "How crowns shade everything else: solid-angle-cosine, ..., none")
       ->type_name("METHOD");
   command.add_option("--occluders", options.occluders, "The same for moving occluders")->type_name("METHOD");
-  command.add_option("--near", options.near, "Near field from depth and normals: obscurance-line, -point, -area, none")
+  command
+      .add_option("--near", options.near,
+                  "Near field from depth and normals: obscurance-line, -point, -area, screen-rays, none")
       ->type_name("METHOD");
 }
 

@@ -11,6 +11,7 @@
 #include "host/passes/obscurance_half.hpp"
 #include "host/passes/obscurance_line.hpp"
 #include "host/passes/obscurance_point.hpp"
+#include "host/passes/screen_rays.hpp"
 #include "sim/error.hpp"
 
 namespace understory {
@@ -23,8 +24,13 @@ constexpr double reach_of_radius = 0.2;
 /// endless thickness up to twice as much (bench/obscurance.md).
 constexpr double usual_thickness = 5;  // radii
 
-NearField with_thickness(NearField near_field) {
-  if (near_field.thickness == 0) near_field.thickness = usual_thickness * near_field.radius;
+/// For rays, which take surfaces to be at least so deep: of leaves and grass rather than of the ray (likewise).
+constexpr double usual_ray_thickness = 0.05;  // m
+
+NearField with_thickness(const Methods& methods) {
+  NearField near_field = methods.near_field;
+  if (near_field.thickness > 0) return near_field;
+  near_field.thickness = methods.near == "screen-rays" ? usual_ray_thickness : usual_thickness * near_field.radius;
   return near_field;
 }
 
@@ -33,7 +39,7 @@ struct AreaSampling {
   AreaSampling(Device& the_device, const Methods& methods)
       : device(&the_device),
         gather(the_device),
-        shade(the_device, with_thickness(methods.near_field), line_samples(near_samples(methods))) {}
+        shade(the_device, with_thickness(methods), line_samples(near_samples(methods))) {}
   void run(FragmentPlanes& planes, const ObscuranceView& view, Buffer<float>& visibility) {
     if (moments.levels.empty()) moments = gather.allocate(*device, view);
     gather.run(planes, view, moments);
@@ -45,14 +51,16 @@ struct AreaSampling {
   DepthMoments moments;
 };
 
-using ObscurancePass = std::variant<ObscuranceLinePass, ObscurancePointPass, AreaSampling>;
+using ObscurancePass = std::variant<ObscuranceLinePass, ObscurancePointPass, AreaSampling, ScreenRaysPass>;
 
 ObscurancePass obscurance_pass(Device& device, const Methods& methods) {
   const int samples = near_samples(methods);
-  const NearField near_field = with_thickness(methods.near_field);
+  const NearField near_field = with_thickness(methods);
   if (methods.near == "obscurance-area") return ObscurancePass(std::in_place_type<AreaSampling>, device, methods);
   if (methods.near == "obscurance-point")
     return ObscurancePass(std::in_place_type<ObscurancePointPass>, device, near_field, point_samples(samples));
+  if (methods.near == "screen-rays")
+    return ObscurancePass(std::in_place_type<ScreenRaysPass>, device, near_field, samples);
   return ObscurancePass(std::in_place_type<ObscuranceLinePass>, device, near_field, line_samples(samples));
 }
 
@@ -87,6 +95,7 @@ glm::vec3 axis_of(const float (&axis)[4]) { return {axis[0], axis[1], axis[2]}; 
 
 int near_samples(const Methods& methods) {
   if (methods.near_field.samples > 0) return methods.near_field.samples;
+  if (methods.near == "screen-rays") return 16;
   return methods.near == "obscurance-point" ? 12 : methods.near == "obscurance-area" ? 1 : 5;
 }
 

@@ -55,7 +55,8 @@ void check_names(const Methods& methods) {
                 {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "grid", "grid-self-paper", "grid-cone",
                  "grid-cone-paper", "none"});
   require_known("combine", methods.combine, {"multiply", "simple", "merge", "union"});
-  require_known("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"});
+  require_known("near", methods.near,
+                {"obscurance-line", "obscurance-point", "obscurance-area", "screen-rays", "none"});
 }
 
 void plan_geometry(const Contents& contents, Plan& plan) {

@@ -16,7 +16,7 @@ SHARED void shade_balls(global const float* depth, global const float* normal_x,
                         global uint* validity) {
   const uint i = get_global_id(0);
   if (i >= items) return;
-  const truth drawn = (LOAD(validity, i) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) == (bits)(0u);
+  const truth drawn = drawn_lanes(validity, i);
   if (!ANY(drawn)) {
     STORE(REAL(1.0), visibility, i);
     return;

@@ -27,15 +27,31 @@ SHARED Pixels pixels_of(uint item, const ObscuranceSetting* setting) {
   return at;
 }
 
+/// Along right, down and forward.
+typedef struct {
+  real x, y, z;
+} CameraVector;
+
+/// Of a vector along the world's axes.
+SHARED CameraVector in_camera_axes(real x, real y, real z, const ObscuranceSetting* setting) {
+#define COMPONENT(axis) fma(x, (real)(setting->axis[0]), fma(y, (real)(setting->axis[1]), z * setting->axis[2]))
+  const CameraVector vector = {COMPONENT(right), COMPONENT(down), COMPONENT(forward)};
+#undef COMPONENT
+  return vector;
+}
+
 SHARED Receiver receiver_of(Pixels at, real depth, real normal_x, real normal_y, real normal_z,
                             const ObscuranceSetting* setting) {
   const real per_focal = (real)(1.0f / setting->focal);
   const real x = (at.x + REAL(0.5) - setting->centre_x) * per_focal;
   const real y = (at.y + REAL(0.5) - setting->centre_y) * per_focal;
-#define COMPONENT(axis) \
-  fma(normal_x, (real)(setting->axis[0]), fma(normal_y, (real)(setting->axis[1]), normal_z * setting->axis[2]))
-  return receiver_at(x, y, depth, COMPONENT(right), COMPONENT(down), COMPONENT(forward), (real)(setting->perspective));
-#undef COMPONENT
+  const CameraVector normal = in_camera_axes(normal_x, normal_y, normal_z, setting);
+  return receiver_at(x, y, depth, normal.x, normal.y, normal.z, (real)(setting->perspective));
+}
+
+/// Fragments that show something.
+SHARED truth drawn_lanes(global const uint* validity, uint item) {
+  return (LOAD(validity, item) & (bits)(VALIDITY_BACKGROUND | VALIDITY_NOT_FINITE)) == (bits)(0u);
 }
 
 /// What is seen some pixels away.

@@ -299,9 +299,12 @@ void keys(Archive& a, EnvironmentSource& environment) {
 
 template <class Archive>
 void keys(Archive& a, NearField& near_field) {
-  a.integer("samples", near_field.samples, 1, 33,
-            "lines: 5, 7, 9, 12, 13, 15, 16; points: 6, 12, 33; areas: 1, or as lines; left out: 5, 12, 1", 0);
-  a.number("radius", near_field.radius, above_zero(1000, "m"), "of the ball around each fragment");
+  a.integer("samples", near_field.samples, 1, 64,
+            "lines: 5, 7, 9, 12, 13, 15, 16; points: 6, 12, 33; areas: 1, or as lines; rays: 1 to 64; left out: 5, 12, "
+            "1, 16",
+            0);
+  a.number("radius", near_field.radius, above_zero(1000, "m"),
+           "of the ball around each fragment; rays: how long they are");
   a.number("second_radius", near_field.second_radius, optional_above_zero(1000, "m", 0),
            "of a second ball; left out: none");
   a.word("radii", near_field.radii, {"product", "minimum"}, "of the two radii");
@@ -309,7 +312,8 @@ void keys(Archive& a, NearField& near_field) {
          "weight over the ball: 1, or 1 - (r/radius)^2; cosine: 1 over the largest ball in front of the tangent plane");
   a.word("normals", near_field.normals, {"buffer", "depth", "none"}, "clamp to the tangent plane; from where");
   a.number("thickness", near_field.thickness, optional_above_zero(1000, "m", 0),
-           "of what is seen, on the mean (areas: exactly); open behind it; left out: 5 times `radius`");
+           "of what is seen, on the mean (areas: exactly; rays: at least); open behind it; left out: 5 times `radius`, "
+           "rays: 0.05");
   a.integer("blur", near_field.blur, 0, 16, "radius of the edge-aware blur, pixels");
   a.flag("half_resolution", near_field.half_resolution, "every second pixel, then depth-aware upsampling");
   a.integer("guard", near_field.guard, 0, 1024, "pixels drawn around the image for samples that leave it");
@@ -330,9 +334,14 @@ void keys(Archive& a, Methods& methods) {
          {"solid-angle", "solid-angle-exact", "solid-angle-cosine", "grid", "grid-self-paper", "grid-cone",
           "grid-cone-paper", "none"},
          "how moving occluders shade others");
-  a.word("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "none"},
+  a.word("near", methods.near, {"obscurance-line", "obscurance-point", "obscurance-area", "screen-rays", "none"},
          "near field, from depth and normals");
   a.record("near_field", methods.near_field, "how `near` samples");
+  const bool rays = methods.near == "screen-rays";
+  const NearField& near_field = methods.near_field;
+  a.check(!rays || near_field.normals != "none", "near_field.normals", "buffer or depth, for screen-rays");
+  a.check(!rays || near_field.falloff == "constant", "near_field.falloff", "constant, for screen-rays");
+  a.check(!rays || near_field.second_radius == 0, "near_field.second_radius", "left out, for screen-rays");
   a.word("combine", methods.combine, {"multiply", "simple", "merge", "union"}, "how grid-cone puts occluders together");
   a.section("grid", "how the grids of moving occluders are baked", [&](auto& grid) {
     grid.integer("size", methods.grid.size, 2, 512, "samples per axis");

@@ -1,0 +1,152 @@
+// A ray of `screen-rays` in the image, and what the pixels that it crosses show. OpenCL only.
+#ifndef UNDERSTORY_SCREEN_RAY_H
+#define UNDERSTORY_SCREEN_RAY_H
+
+#include "kernels/shared/obscurance_fragments.h"
+
+/// Where steps begin, pixels from the fragment: beyond the pixel that shows it.
+#define FIRST_STEP REAL(0.5)
+/// Steps are a pixel and, farther away, this share of the way from the fragment.
+#define GROWTH REAL(0.2)
+/// What is less behind a surface, of a pixel's width there, is on it.
+#define ON_SURFACE REAL(0.02)
+/// Depths of one surface, seen one after the other, differ by no more, widths of a pixel.
+#define JOINED REAL(3.0)
+/// The farthest that what a pixel shows is carried along the fragment's plane to the ray, widths of a pixel: all the
+/// way up to a tilt of 87 degrees.
+#define CARRIED REAL(16.0)
+
+typedef struct {
+  CameraVector end;     // from the fragment, m
+  real length;          // m; less than the radius where the camera would be passed
+  real step_x, step_y;  // in the image, the longer is a pixel
+  real pixels;          // such steps from the fragment to the end
+  real widening;        // how large a metre is at the fragment, over at the end
+  real jitter;          // where within its steps it looks, [0, 1)
+} ScreenRay;
+
+/// The i-th number of a sequence that spreads evenly over [-0.5, 0.5), in whole arithmetic, so that all widths and the
+/// reference have the same.
+SHARED real spread_number(whole i, uint share_of_2_32) {
+  return TO_REAL(AS_WHOLE(TO_BITS(i) * (bits)(share_of_2_32))) * REAL(2.3283064365386963e-10);
+}
+
+/// a, b and c along two axes square to the normal, and along it (Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited", listing 3).
+SHARED CameraVector about_normal(Receiver to, real a, real b, real c) {
+  const real sign = PICK(to.normal_z < REAL(0.0), REAL(-1.0), REAL(1.0));
+  const real over = REAL(-1.0) / (sign + to.normal_z), cross = to.normal_x * to.normal_y * over;
+  const real xx = fma(sign * to.normal_x * to.normal_x, over, REAL(1.0));
+  const real yy = fma(to.normal_y * to.normal_y, over, sign);
+  CameraVector v;
+  v.x = fma(a, xx, fma(b, cross, c * to.normal_x));
+  v.y = fma(a, sign * cross, fma(b, yy, c * to.normal_y));
+  v.z = fma(a, -sign * to.normal_x, fma(-b, to.normal_y, c * to.normal_z));
+  return v;
+}
+
+/// The i-th of `count` rays: strata of equal weight from the normal outwards, golden section about it. The 4 x 4 pixels
+/// of the pattern have 16 times as many together.
+SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint count, const ObscuranceSetting* setting) {
+  const whole number = at.turn + (whole)((int)(16 * i));
+  const real square = (TO_REAL(number) + REAL(0.5)) * (real)(0.0625f / (float)(count));
+  const real azimuth = spread_number(number, 0x9E3779B9u), flat = sqrt(square);  // the golden section
+  const CameraVector way =
+      about_normal(to, flat * cosine_of_turn(azimuth), flat * sine_of_turn(azimuth), sqrt(REAL(1.0) - square));
+  // In front of the camera it ends where a metre is ten times as large as at the fragment.
+  const real nearer = -ball.widening * way.z;
+  const real share = PICK(nearer > REAL(0.9), REAL(0.9) / nearer, REAL(1.0));
+  ScreenRay ray;
+  ray.length = (real)(setting->radius) * share;
+  ray.end.x = ray.length * way.x;
+  ray.end.y = ray.length * way.y;
+  ray.end.z = ray.length * way.z;
+  ray.widening = fma(-nearer, share, REAL(1.0));
+  const real scale = ball.pixels * share / ray.widening;
+  const real across = scale * fma(-to.ray_x, way.z, way.x), down = scale * fma(-to.ray_y, way.z, way.y);
+  ray.pixels = PICK(fabs(across) > fabs(down), fabs(across), fabs(down));
+  const real per_step = REAL(1.0) / at_least(ray.pixels, REAL(1e-6));
+  ray.step_x = across * per_step;
+  ray.step_y = down * per_step;
+  // The second number of the plastic sequence (Roberts 2018, R2) beside the golden section.
+  ray.jitter = spread_number(number, 0xC13FA9A9u) + REAL(0.5);
+  return ray;
+}
+
+/// The share of the ray's length that its first `pixels` steps are: even in the image is not even in space.
+SHARED real share_at(ScreenRay ray, real pixels) { return pixels / fma(ray.widening, ray.pixels - pixels, pixels); }
+
+SHARED whole pixel_index(real x, real y, const ObscuranceSetting* setting) {
+  return TO_WHOLE(y) * (whole)(setting->width) + TO_WHOLE(x);
+}
+
+typedef struct {
+  whole index;
+  real depth;    // camera z where the ray passes, m; the pixel's own is carried there along the fragment's plane
+  real width;    // of a pixel at that depth, m
+  truth inside;  // the image
+} SeenPixel;
+
+SHARED real pixel_width(Receiver to, real depth, const ObscuranceSetting* setting) {
+  return fma(to.perspective, depth, REAL(1.0) - to.perspective) * (real)(1.0f / setting->focal);
+}
+
+/// Where the ray is after `place` of its steps.
+SHARED SeenPixel seen_pixel(global const float* depth, Pixels at, Receiver to, ScreenRay ray, real place,
+                            const ObscuranceSetting* setting) {
+  const real end_x = (real)((float)(setting->width)), end_y = (real)((float)(setting->height));
+  const real away_x = ray.step_x * place, away_y = ray.step_y * place;
+  const real x = at.x + REAL(0.5) + away_x, y = at.y + REAL(0.5) + away_y;
+  const whole pixel_x = TO_WHOLE(at_least(at_most(x, end_x - REAL(1.0)), REAL(0.0)));
+  const whole pixel_y = TO_WHOLE(at_least(at_most(y, end_y - REAL(1.0)), REAL(0.0)));
+  SeenPixel seen;
+  seen.inside = (x >= REAL(0.0)) & (x < end_x) & (y >= REAL(0.0)) & (y < end_y);
+  seen.index = pixel_y * (whole)(setting->width) + pixel_x;
+  const real own = GATHER(real, depth, seen.index, );
+  seen.width = pixel_width(to, own, setting);
+  const real off_x = x - TO_REAL(pixel_x) - REAL(0.5), off_y = y - TO_REAL(pixel_y) - REAL(0.5);
+  const real turned = to.perspective * (real)(1.0f / setting->focal);
+  const real facing = fma(turned, fma(to.normal_x, away_x, to.normal_y * away_y), to.facing);
+  const real slope = fma(to.normal_x, off_x, to.normal_y * off_y) / at_most(facing, EDGE_ON);
+  seen.depth = fma(-seen.width, at_least(at_most(slope, CARRIED), -CARRIED), own);
+  return seen;
+}
+
+/// The surface that a ray is behind, as far as it was crossed.
+typedef struct {
+  real width;  // m
+  real depth;  // of the pixel seen last, m; far outside while there is none
+} SurfaceRun;
+
+/// `moved`: steps since the pixel before.
+SHARED SurfaceRun next_of_run(SurfaceRun run, truth is_behind, SeenPixel seen, real moved) {
+  const truth joined = fabs(seen.depth - run.depth) <= JOINED * seen.width;
+  SurfaceRun next;
+  next.width = PICK(joined, fma(seen.width, moved, run.width), seen.width);
+  next.depth = PICK(is_behind, seen.depth, REAL(-1e30));
+  return next;
+}
+
+/// From the camera, m. (x, y): pixel.
+SHARED CameraVector pixel_point(Receiver to, real x, real y, real depth, const ObscuranceSetting* setting) {
+  const real scale = pixel_width(to, depth, setting);
+  const CameraVector point = {(x + REAL(0.5) - setting->centre_x) * scale, (y + REAL(0.5) - setting->centre_y) * scale,
+                              depth};
+  return point;
+}
+
+/// Whether a ray that left the image ends behind the plane of the last pixel that it passed: what is wide goes on.
+SHARED truth ends_behind(global const float* depth, global const float* normal_x, global const float* normal_y,
+                         global const float* normal_z, whole last, Pixels at, Receiver to, ScreenRay ray,
+                         const ObscuranceSetting* setting) {
+  const whole y = last / (whole)(setting->width), x = last - y * (whole)(setting->width);
+  const CameraVector border = pixel_point(to, TO_REAL(x), TO_REAL(y), GATHER(real, depth, last, ), setting);
+  const CameraVector here = pixel_point(to, at.x, at.y, to.depth, setting);
+  const CameraVector normal = in_camera_axes(GATHER(real, normal_x, last, ), GATHER(real, normal_y, last, ),
+                                             GATHER(real, normal_z, last, ), setting);
+  const real height = fma(here.x + ray.end.x - border.x, normal.x,
+                          fma(here.y + ray.end.y - border.y, normal.y, (here.z + ray.end.z - border.z) * normal.z));
+  return height < REAL(0.0);
+}
+
+#endif
