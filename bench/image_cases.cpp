@@ -11,6 +11,7 @@
 #include "host/passes/obscurance_half.hpp"
 #include "host/passes/obscurance_line.hpp"
 #include "host/passes/obscurance_point.hpp"
+#include "host/passes/screen_rays.hpp"
 
 namespace understory {
 namespace {
@@ -228,6 +229,13 @@ std::vector<KernelCase> image_cases() {
               "obscurance-point", 2e-3,
               [](Device& device, Image image) {
                 const auto pass = std::make_shared<ObscurancePointPass>(device, near_field(), point_samples(12));
+                return [=] { pass->run(image->planes, image->view, image->visibility); };
+              },
+              closedness),
+          image_case(
+              "screen-rays", 2e-3,
+              [](Device& device, Image image) {
+                const auto pass = std::make_shared<ScreenRaysPass>(device, near_field(), 16);
                 return [=] { pass->run(image->planes, image->view, image->visibility); };
               },
               closedness),

@@ -125,6 +125,26 @@ TunedResult print_tuned(ObscuranceScene& scene, const Plane& near_truth, const s
   return last;
 }
 
+/// What chose the thickness that rays take of surfaces, and the number of rays.
+void print_rays(ObscuranceScene& scene, const Plane& near_truth, const std::vector<std::size_t>& pixels, double reach) {
+  fmt::print("| rays | length, m | thickness, m | RMSE against traced obscurance | bias | blurred | bias | ms |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  const auto print = [&](int rays, double thickness) {
+    NearField options;
+    options.radius = reach;
+    options.thickness = thickness;
+    const ObscuranceWay way{ObscuranceWay::Kind::rays, rays, 1};
+    const Plane plane = scene.shade(way, options);
+    const ErrorStatistics plain = error_statistics(picked(plane, pixels), near_truth, {}, {}),
+                          blurred = error_statistics(picked(scene.blurred(plane, options), pixels), near_truth, {}, {});
+    fmt::print("| {} | {:.2f} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.1f} |\n", rays, reach, thickness,
+               plain.rmse, plain.bias, blurred.rmse, blurred.bias, scene.cost({way}, options, 3).front());
+  };
+  for (const int rays : {4, 8, 16, 32, 64}) print(rays, 0.05);
+  for (const double thickness : {0.025, 0.1}) print(16, thickness);
+  fmt::print("\n");
+}
+
 void print_peer(ObscuranceScene& scene, const PosedGeometry& geometry, const Plane& near_truth,
                 const std::vector<std::size_t>& pixels, double reach, const TunedResult& ours) {
   for (const bool blur : {false, true}) {
@@ -177,6 +197,7 @@ void print_scene(Device& device, const char* title, const char* file, const Sett
       print_steadiness(scene, moved_scene, options);
     }
     const TunedResult tuned = print_tuned(scene, near_truth, pixels, radius);
+    print_rays(scene, near_truth, pixels, radius);
     print_peer(scene, geometry, near_truth, pixels, radius, tuned);
     fmt::print("\n");
     std::fflush(stdout);
@@ -207,6 +228,10 @@ void print_combination(Device& device, const char* file, const Settings& setting
       methods.near_field.combine = combine;
       runner.choose(methods);
       print(fmt::format("lines 9, {} m, {}", radius, combine), runner.render(0, 1));
+      methods.near = "screen-rays";
+      methods.near_field.samples = 16;
+      runner.choose(methods);
+      print(fmt::format("rays 16, {} m, {}", radius, combine), runner.render(0, 1));
     }
   fmt::print("\n");
   std::fflush(stdout);

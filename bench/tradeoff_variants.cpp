@@ -27,8 +27,10 @@ struct NearSamples {
   std::vector<int> samples;
 };
 const std::vector<NearSamples>& near_samples_tried() {
-  static const std::vector<NearSamples> all = {
-      {"obscurance-line", {5, 9, 16}}, {"obscurance-point", {6, 12, 33}}, {"obscurance-area", {1, 5}}};
+  static const std::vector<NearSamples> all = {{"obscurance-line", {5, 9, 16}},
+                                               {"obscurance-point", {6, 12, 33}},
+                                               {"obscurance-area", {1, 5}},
+                                               {"screen-rays", {4, 16}}};
   return all;
 }
 

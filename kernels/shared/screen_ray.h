@@ -25,11 +25,8 @@ typedef struct {
   real jitter;          // where within its steps it looks, [0, 1)
 } ScreenRay;
 
-/// The i-th number of a sequence that spreads evenly over [-0.5, 0.5), in whole arithmetic, so that all widths and the
-/// reference have the same.
-SHARED real spread_number(whole i, uint share_of_2_32) {
-  return TO_REAL(AS_WHOLE(TO_BITS(i) * (bits)(share_of_2_32))) * REAL(2.3283064365386963e-10);
-}
+/// Of a share of 2^32 that whole arithmetic went round, [-0.5, 0.5): all widths and the reference have the same.
+SHARED real part_of_turn(bits share) { return TO_REAL(AS_WHOLE(share)) * REAL(2.3283064365386963e-10); }
 
 /// a, b and c along two axes square to the normal, and along it (Duff et al. 2017, "Building an Orthonormal Basis,
 /// Revisited", listing 3).
@@ -45,12 +42,13 @@ SHARED CameraVector about_normal(Receiver to, real a, real b, real c) {
   return v;
 }
 
-/// The i-th of `count` rays: strata of equal weight from the normal outwards, golden section about it. The 4 x 4 pixels
-/// of the pattern have 16 times as many together.
+/// The i-th of `count` rays: strata of equal weight from the normal outwards, golden section about it. Pixels of the
+/// 4 x 4 pattern have rays of their own.
 SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint count, const ObscuranceSetting* setting) {
   const whole number = at.turn + (whole)((int)(16 * i));
   const real square = (TO_REAL(number) + REAL(0.5)) * (real)(0.0625f / (float)(count));
-  const real azimuth = spread_number(number, 0x9E3779B9u), flat = sqrt(square);  // the golden section
+  const bits turn = (bits)(i * 0x9E3779B9u) + (TO_BITS(at.turn) << 28);  // golden sections, and sixteenths
+  const real azimuth = part_of_turn(turn), flat = sqrt(square);
   const CameraVector way =
       about_normal(to, flat * cosine_of_turn(azimuth), flat * sine_of_turn(azimuth), sqrt(REAL(1.0) - square));
   // In front of the camera it ends where a metre is ten times as large as at the fragment.
@@ -69,7 +67,7 @@ SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint coun
   ray.step_x = across * per_step;
   ray.step_y = down * per_step;
   // The second number of the plastic sequence (Roberts 2018, R2) beside the golden section.
-  ray.jitter = spread_number(number, 0xC13FA9A9u) + REAL(0.5);
+  ray.jitter = part_of_turn(TO_BITS(number) * (bits)(0xC13FA9A9u)) + REAL(0.5);
   return ray;
 }
 

@@ -313,7 +313,7 @@ void keys(Archive& a, NearField& near_field) {
   a.word("normals", near_field.normals, {"buffer", "depth", "none"}, "clamp to the tangent plane; from where");
   a.number("thickness", near_field.thickness, optional_above_zero(1000, "m", 0),
            "of what is seen, on the mean (areas: exactly; rays: at least); open behind it; left out: 5 times `radius`, "
-           "rays: 0.05");
+           "rays: a tenth of it, 0.05 m at most");
   a.integer("blur", near_field.blur, 0, 16, "radius of the edge-aware blur, pixels");
   a.flag("half_resolution", near_field.half_resolution, "every second pixel, then depth-aware upsampling");
   a.integer("guard", near_field.guard, 0, 1024, "pixels drawn around the image for samples that leave it");

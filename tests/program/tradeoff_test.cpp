@@ -75,7 +75,7 @@ TEST(Tradeoff, MeasuresASceneWithEveryClassOfObject) {
   EXPECT_GE(front, 1u);
   EXPECT_GE(temporal, 3u);
   for (const char* method : {"sphere-cap", "crown-baked", "grass-transmittance", "crown-shells", "grid-cone 16 simple",
-                             "obscurance-point 33", "size 1/2", "relaxed maths"})
+                             "obscurance-point 33", "screen-rays 16", "size 1/2", "relaxed maths"})
     EXPECT_THAT(all_names, HasSubstr(method));
   // V is the product of its terms, so that what they predict of the whole is exact up to rounding.
   const auto& prediction = table.at("prediction");
