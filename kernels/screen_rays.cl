@@ -13,7 +13,7 @@
 /// and 3 m far, 3 errs least, 2.5 and 4 by 2 % more (bench/obscurance.md).
 #define CLUTTER REAL(3.0)
 
-/// Metres of one or more rays, up to where they are blocked.
+/// Of rays up to where they are blocked; of one by itself shares of its length, of several together metres.
 typedef struct {
   real behind;   // anything
   real clutter;  // anything, by less than CLUTTER_REACH
@@ -22,35 +22,31 @@ typedef struct {
 
 typedef struct {
   Stretches along;
-  truth blocked;
-  truth left;  // the image
-  whole last;  // pixel inside
+  real open;  // 1; 0 where something blocks it
 } Passage;
 
+/// Through the part of the image that the ray crosses.
 SHARED Passage passage_of(global const float* depth, Pixels at, Receiver to, truth drawn, ScreenRay ray,
                           const ObscuranceSetting* setting) {
   const real thickness = (real)(setting->thickness);
   // Of a ray's length and of depth: what is less behind a surface is on it.
   const real rounding = fma(to.depth, REAL(4e-6), (real)(5e-4f * setting->radius));
-  const real slant = REAL(0.5) * fabs(ray.end.z);
-  Passage passage = {{REAL(0.0), REAL(0.0), REAL(0.0)}, (truth)(0), (truth)(0), pixel_index(at.x, at.y, setting)};
+  const real slant = REAL(0.5) * fabs(ray.end.z), end = PICK(drawn, ray.inside, REAL(0.0));
+  Passage passage = {{REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(1.0)};
   SurfaceRun run = {REAL(0.0), REAL(-1e30)};
   real from = FIRST_STEP, share = share_at(ray, from), looked = from;
-  for (truth on = drawn & (from < ray.pixels); ANY(on); on &= from < ray.pixels) {
-    const real next = at_most(from + at_least(GROWTH * from, REAL(1.0)), ray.pixels), step = next - from;
+  // Blocked rays go on to their end: to wait for what a step sees before the next begins takes a third longer.
+  for (truth on = from < end; ANY(on); on = from < end) {
+    const real next = at_most(from + at_least(GROWTH * from, REAL(1.0)), end), step = next - from;
     const real place = fma(step, ray.jitter, from), next_share = share_at(ray, next);
     const SeenPixel seen = seen_pixel(depth, at, to, ray, place, setting);
-    passage.left |= on & NOT(seen.inside);
-    on &= seen.inside;
-    passage.last = PICK(on, seen.index, passage.last);
     const real behind = fma(ray.end.z, share_at(ray, place), to.depth) - seen.depth;
-    const truth is_behind = on & (behind > fma(seen.width, ON_SURFACE, rounding)) & (seen.depth > REAL(0.0));
+    const truth is_behind = (behind > fma(seen.width, ON_SURFACE, rounding)) & (seen.depth > REAL(0.0));
     run = next_of_run(run, is_behind, seen, place - looked);
     const real passed = next_share - share, deep = at_least(run.width, thickness);
-    const truth hit = is_behind & (fma(-slant, passed, behind) < fma(seen.width, step - REAL(1.0), deep));
-    passage.blocked |= hit;
-    on &= NOT(hit);
-    const real stretch = PICK(on, passed * ray.length, REAL(0.0)), hidden = PICK(is_behind, stretch, REAL(0.0));
+    const truth stops = is_behind & (fma(-slant, passed, behind) < fma(seen.width, step - REAL(1.0), deep));
+    passage.open = PICK(on & stops, REAL(0.0), passage.open);
+    const real stretch = passed * passage.open, hidden = PICK(is_behind, stretch, REAL(0.0));
     passage.along.behind += hidden;
     passage.along.clutter += PICK(behind < CLUTTER_REACH, hidden, REAL(0.0));
     passage.along.clear += stretch - hidden;
@@ -71,20 +67,22 @@ SHARED real open_share_of_rays(global const float* depth, global const float* no
   for (uint i = 0; i < rays; ++i) {
     const ScreenRay ray = screen_ray(to, ball, at, i, rays, setting);
     Passage passage = passage_of(depth, at, to, drawn, ray, setting);
-    if (ANY(passage.left))
-      passage.blocked |=
-          passage.left & ends_behind(depth, normal_x, normal_y, normal_z, passage.last, at, to, ray, setting);
-    left |= passage.left;
-    all.clutter += passage.along.clutter;
-    all.clear += passage.along.clear;
-    all.behind += PICK(passage.blocked, REAL(0.0), passage.along.behind);
-    open += PICK(passage.blocked, REAL(0.0), REAL(1.0));
+    const truth leaves = drawn & (ray.inside < ray.pixels);
+    if (ANY(leaves)) {
+      const truth ends = leaves & ends_behind(depth, normal_x, normal_y, normal_z, at, to, ray, setting);
+      passage.open = PICK(ends, REAL(0.0), passage.open);
+    }
+    left |= leaves;
+    open += passage.open;
+    all.behind = fma(passage.open * ray.length, passage.along.behind, all.behind);
+    all.clutter = fma(ray.length, passage.along.clutter, all.clutter);
+    all.clear = fma(ray.length, passage.along.clear, all.clear);
   }
   flag_samples(validity, item, ball, left, drawn, setting);
   // Open rays as one of their mean length behind things: over all of them the error is less than with each by itself.
   const real density = CLUTTER * all.clutter / at_least(all.clutter + all.clear, REAL(1e-30));
-  return as_visibility(open * (real)(1.0f / (float)(rays)) *
-                       exp_minus(density * all.behind / at_least(open, REAL(1.0))));
+  const real dimmed = exp_minus(density * all.behind / at_least(open, REAL(1.0)));
+  return as_visibility(open * (real)(1.0f / (float)(rays)) * dimmed);
 }
 
 kernel void shade_screen_rays(global const float* depth, global const float* normal_x, global const float* normal_y,

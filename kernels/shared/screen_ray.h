@@ -21,8 +21,11 @@ typedef struct {
   real length;          // m; less than the radius where the camera would be passed
   real step_x, step_y;  // in the image, the longer is a pixel
   real pixels;          // such steps from the fragment to the end
+  real inside;          // of them, those in the image
   real widening;        // how large a metre is at the fragment, over at the end
   real jitter;          // where within its steps it looks, [0, 1)
+  real turning;         // how much the fragment's plane turns away from what sees it, as `facing`, in a step
+  real half_rise;       // of that plane over half a pixel, against both axes of the image
 } ScreenRay;
 
 /// Of a share of 2^32 that whole arithmetic went round, [-0.5, 0.5): all widths and the reference have the same.
@@ -68,44 +71,59 @@ SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint coun
   ray.step_y = down * per_step;
   // The second number of the plastic sequence (Roberts 2018, R2) beside the golden section.
   ray.jitter = part_of_turn(TO_BITS(number) * (bits)(0xC13FA9A9u)) + REAL(0.5);
+  const real along = fma(to.normal_x, ray.step_x, to.normal_y * ray.step_y);
+  const real room_x =
+      PICK(ray.step_x > REAL(0.0), (real)((float)(setting->width)) - at.x - REAL(0.5), at.x + REAL(0.5));
+  const real room_y =
+      PICK(ray.step_y > REAL(0.0), (real)((float)(setting->height)) - at.y - REAL(0.5), at.y + REAL(0.5));
+  ray.inside =
+      at_most(at_most(room_x / at_least(fabs(ray.step_x), REAL(1e-6)), room_y / at_least(fabs(ray.step_y), REAL(1e-6))),
+              ray.pixels);
+  ray.turning = to.perspective * (real)(1.0f / setting->focal) * along;
+  ray.half_rise = REAL(-0.5) * (to.normal_x + to.normal_y);
   return ray;
 }
 
 /// The share of the ray's length that its first `pixels` steps are: even in the image is not even in space.
 SHARED real share_at(ScreenRay ray, real pixels) { return pixels / fma(ray.widening, ray.pixels - pixels, pixels); }
 
-SHARED whole pixel_index(real x, real y, const ObscuranceSetting* setting) {
-  return TO_WHOLE(y) * (whole)(setting->width) + TO_WHOLE(x);
-}
-
-typedef struct {
-  whole index;
-  real depth;    // camera z where the ray passes, m; the pixel's own is carried there along the fragment's plane
-  real width;    // of a pixel at that depth, m
-  truth inside;  // the image
-} SeenPixel;
-
 SHARED real pixel_width(Receiver to, real depth, const ObscuranceSetting* setting) {
   return fma(to.perspective, depth, REAL(1.0) - to.perspective) * (real)(1.0f / setting->focal);
 }
 
-/// Where the ray is after `place` of its steps.
+/// That the ray crosses after `place` of its steps.
+typedef struct {
+  whole x, y, index;
+  real off_x, off_y;  // the ray from its upper left corner, pixels
+} CrossedPixel;
+
+SHARED CrossedPixel crossed_pixel(Pixels at, ScreenRay ray, real place, const ObscuranceSetting* setting) {
+  const real last_x = (real)((float)(setting->width - 1)), last_y = (real)((float)(setting->height - 1));
+  const real x = fma(ray.step_x, place, at.x + REAL(0.5)), y = fma(ray.step_y, place, at.y + REAL(0.5));
+  CrossedPixel pixel;
+  pixel.x = TO_WHOLE(at_least(at_most(x, last_x), REAL(0.0)));
+  pixel.y = TO_WHOLE(at_least(at_most(y, last_y), REAL(0.0)));
+  pixel.index = pixel.y * (whole)(setting->width) + pixel.x;
+  pixel.off_x = x - TO_REAL(pixel.x);
+  pixel.off_y = y - TO_REAL(pixel.y);
+  return pixel;
+}
+
+/// What a pixel shows where the ray crosses it.
+typedef struct {
+  real depth;  // camera z, m; the pixel's own is carried to the ray along the fragment's plane
+  real width;  // of a pixel at that depth, m
+} SeenPixel;
+
 SHARED SeenPixel seen_pixel(global const float* depth, Pixels at, Receiver to, ScreenRay ray, real place,
                             const ObscuranceSetting* setting) {
-  const real end_x = (real)((float)(setting->width)), end_y = (real)((float)(setting->height));
-  const real away_x = ray.step_x * place, away_y = ray.step_y * place;
-  const real x = at.x + REAL(0.5) + away_x, y = at.y + REAL(0.5) + away_y;
-  const whole pixel_x = TO_WHOLE(at_least(at_most(x, end_x - REAL(1.0)), REAL(0.0)));
-  const whole pixel_y = TO_WHOLE(at_least(at_most(y, end_y - REAL(1.0)), REAL(0.0)));
+  const CrossedPixel pixel = crossed_pixel(at, ray, place, setting);
+  const real own = GATHER(real, depth, pixel.index, );
+  // Towards the camera along the plane, from the pixel's centre to the ray, widths of a pixel.
+  const real rise = fma(to.normal_x, pixel.off_x, fma(to.normal_y, pixel.off_y, ray.half_rise));
+  const real slope = rise / at_most(fma(ray.turning, place, to.facing), EDGE_ON);
   SeenPixel seen;
-  seen.inside = (x >= REAL(0.0)) & (x < end_x) & (y >= REAL(0.0)) & (y < end_y);
-  seen.index = pixel_y * (whole)(setting->width) + pixel_x;
-  const real own = GATHER(real, depth, seen.index, );
   seen.width = pixel_width(to, own, setting);
-  const real off_x = x - TO_REAL(pixel_x) - REAL(0.5), off_y = y - TO_REAL(pixel_y) - REAL(0.5);
-  const real turned = to.perspective * (real)(1.0f / setting->focal);
-  const real facing = fma(turned, fma(to.normal_x, away_x, to.normal_y * away_y), to.facing);
-  const real slope = fma(to.normal_x, off_x, to.normal_y * off_y) / at_most(facing, EDGE_ON);
   seen.depth = fma(-seen.width, at_least(at_most(slope, CARRIED), -CARRIED), own);
   return seen;
 }
@@ -133,15 +151,17 @@ SHARED CameraVector pixel_point(Receiver to, real x, real y, real depth, const O
   return point;
 }
 
-/// Whether a ray that left the image ends behind the plane of the last pixel that it passed: what is wide goes on.
+/// Of rays that leave the image: whether they end behind the plane of the last pixel that they cross. What is wide goes
+/// on beyond the border.
 SHARED truth ends_behind(global const float* depth, global const float* normal_x, global const float* normal_y,
-                         global const float* normal_z, whole last, Pixels at, Receiver to, ScreenRay ray,
+                         global const float* normal_z, Pixels at, Receiver to, ScreenRay ray,
                          const ObscuranceSetting* setting) {
-  const whole y = last / (whole)(setting->width), x = last - y * (whole)(setting->width);
-  const CameraVector border = pixel_point(to, TO_REAL(x), TO_REAL(y), GATHER(real, depth, last, ), setting);
+  const CrossedPixel last = crossed_pixel(at, ray, ray.inside - REAL(0.5), setting);
+  const CameraVector border =
+      pixel_point(to, TO_REAL(last.x), TO_REAL(last.y), GATHER(real, depth, last.index, ), setting);
   const CameraVector here = pixel_point(to, at.x, at.y, to.depth, setting);
-  const CameraVector normal = in_camera_axes(GATHER(real, normal_x, last, ), GATHER(real, normal_y, last, ),
-                                             GATHER(real, normal_z, last, ), setting);
+  const CameraVector normal = in_camera_axes(GATHER(real, normal_x, last.index, ), GATHER(real, normal_y, last.index, ),
+                                             GATHER(real, normal_z, last.index, ), setting);
   const real height = fma(here.x + ray.end.x - border.x, normal.x,
                           fma(here.y + ray.end.y - border.y, normal.y, (here.z + ray.end.z - border.z) * normal.z));
   return height < REAL(0.0);
