@@ -62,8 +62,9 @@ constexpr KernelCost costs[] = {
      "each of five lines gathers a row of seven pixels, which shuffles sort by pixel; clamps are not counted"},
     {"obscurance-point", "pixel", 20, 4, 1064, 0, 12, 0, false,
      "a division for each of twelve points, then a gather; clamps are not counted"},
-    {"screen-rays", "pixel", 20, 4, 7536, 1, 115, 0, false,
-     "seven steps a ray, each a gather that the comparisons after it wait for, until the longest ray of 16 lanes ends"},
+    {"screen-rays", "pixel", 20, 4, 6932, 1, 112, 0, false,
+     "a gather and three divisions a step; half of its instructions are clamps, comparisons and conversions, which are "
+     "not counted; steps until the longest ray of 16 lanes ends"},
     {"depth-moments", "pixel", 24, 16.5, 71, 0, 0, 0, false,
      "32 taps for each texel of a coarser level, one texel per work-item"},
     {"obscurance-area", "pixel", 20, 4, 876, 0, 96, 0, false,

@@ -12,8 +12,7 @@
 #define ON_SURFACE REAL(0.02)
 /// Depths of one surface, seen one after the other, differ by no more, widths of a pixel.
 #define JOINED REAL(3.0)
-/// The farthest that what a pixel shows is carried along the fragment's plane to the ray, widths of a pixel: all the
-/// way up to a tilt of 87 degrees.
+/// The farthest that what a pixel shows is carried along the fragment's plane to the ray, widths of a pixel.
 #define CARRIED REAL(16.0)
 
 typedef struct {
@@ -45,6 +44,14 @@ SHARED CameraVector about_normal(Receiver to, real a, real b, real c) {
   return v;
 }
 
+/// Steps from the middle of a pixel until one coordinate leaves [0, size). Short of the border by a thousandth: what
+/// ends there does not go on by rounding.
+SHARED real room(real pixel, real step, int size) {
+  const real middle = pixel + REAL(0.5);
+  const real way = PICK(step > REAL(0.0), (real)((float)(size)) - middle, middle) - REAL(1e-3);
+  return way / at_least(fabs(step), REAL(1e-6));
+}
+
 /// The i-th of `count` rays: strata of equal weight from the normal outwards, golden section about it. Pixels of the
 /// 4 x 4 pattern have rays of their own.
 SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint count, const ObscuranceSetting* setting) {
@@ -72,13 +79,8 @@ SHARED ScreenRay screen_ray(Receiver to, Ball ball, Pixels at, uint i, uint coun
   // The second number of the plastic sequence (Roberts 2018, R2) beside the golden section.
   ray.jitter = part_of_turn(TO_BITS(number) * (bits)(0xC13FA9A9u)) + REAL(0.5);
   const real along = fma(to.normal_x, ray.step_x, to.normal_y * ray.step_y);
-  const real room_x =
-      PICK(ray.step_x > REAL(0.0), (real)((float)(setting->width)) - at.x - REAL(0.5), at.x + REAL(0.5));
-  const real room_y =
-      PICK(ray.step_y > REAL(0.0), (real)((float)(setting->height)) - at.y - REAL(0.5), at.y + REAL(0.5));
   ray.inside =
-      at_most(at_most(room_x / at_least(fabs(ray.step_x), REAL(1e-6)), room_y / at_least(fabs(ray.step_y), REAL(1e-6))),
-              ray.pixels);
+      at_most(at_most(room(at.x, ray.step_x, setting->width), room(at.y, ray.step_y, setting->height)), ray.pixels);
   ray.turning = to.perspective * (real)(1.0f / setting->focal) * along;
   ray.half_rise = REAL(-0.5) * (to.normal_x + to.normal_y);
   return ray;
@@ -164,7 +166,7 @@ SHARED truth ends_behind(global const float* depth, global const float* normal_x
                                              GATHER(real, normal_z, last.index, ), setting);
   const real height = fma(here.x + ray.end.x - border.x, normal.x,
                           fma(here.y + ray.end.y - border.y, normal.y, (here.z + ray.end.z - border.z) * normal.z));
-  return height < REAL(0.0);
+  return (height < REAL(0.0)) & (border.z < REAL(1e18));  // not of the background, whatever its normal
 }
 
 #endif

@@ -339,9 +339,9 @@ void keys(Archive& a, Methods& methods) {
   a.record("near_field", methods.near_field, "how `near` samples");
   const bool rays = methods.near == "screen-rays";
   const NearField& near_field = methods.near_field;
-  a.check(!rays || near_field.normals != "none", "near_field.normals", "buffer or depth, for screen-rays");
-  a.check(!rays || near_field.falloff == "constant", "near_field.falloff", "constant, for screen-rays");
-  a.check(!rays || near_field.second_radius == 0, "near_field.second_radius", "left out, for screen-rays");
+  a.check(!rays || near_field.normals != "none", "near", "screen-rays with near_field.normals buffer or depth");
+  a.check(!rays || near_field.falloff == "constant", "near", "screen-rays with near_field.falloff constant");
+  a.check(!rays || near_field.second_radius == 0, "near", "screen-rays without near_field.second_radius");
   a.word("combine", methods.combine, {"multiply", "simple", "merge", "union"}, "how grid-cone puts occluders together");
   a.section("grid", "how the grids of moving occluders are baked", [&](auto& grid) {
     grid.integer("size", methods.grid.size, 2, 512, "samples per axis");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host/frame/near_field.hpp"
+#include "host/trace/frame_truth.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/fragments.hpp"
 #include "tests/support/frames.hpp"
@@ -78,6 +79,36 @@ TEST(NearField, MinimumIsNeverDarkerThanProduct) {
     EXPECT_GE(minimum.visibility[i], product.visibility[i]);
     EXPECT_LE(minimum.visibility[i], product.terms.at("obscurance-line")[i]);
   }
+}
+
+TEST(NearField, RaysAreNearerToTracedOnesThanLines) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Scene scene = meadow_view();
+  scene.methods.near_field.radius = 1;
+  scene.methods.near_field.blur = 2;
+  const World world = build_world(scene);
+  Device device;
+  FrameRunner runner(device, world);
+  Frame truth = runner.render(0, 0.5);
+  trace_frame(tracer_of(runner.posed_geometry()), {.rays = 64, .max_distance = 1}, truth);
+  const auto error_of = [&](const char* method, const char* falloff) {
+    Methods methods = scene.methods;
+    methods.near = method;
+    methods.near_field.falloff = falloff;
+    methods.near_field.samples = 16;
+    runner.choose(methods);
+    const Frame near = runner.render(0, 0.5);
+    double sum = 0, drawn = 0;
+    for (std::size_t i = 0; i < near.pixels(); ++i) {
+      if (is_background(near, i)) continue;
+      sum += std::pow(static_cast<double>(near.terms.at(method)[i]) - static_cast<double>(truth.visibility[i]), 2);
+      ++drawn;
+    }
+    return std::sqrt(sum / drawn);
+  };
+  const double rays = error_of("screen-rays", "constant");
+  EXPECT_LT(rays, 0.9 * error_of("obscurance-line", "cosine")) << rays;
+  EXPECT_LT(rays, 0.9 * error_of("obscurance-line", "constant")) << rays;
 }
 
 /// A step of two levels seen from above by an orthographic camera, 20 pixels a metre.

@@ -202,6 +202,11 @@ TEST(Plan, OfTheNearFieldHoldsWhatItsOptionsAskFor) {
   const Taken area = render_one(scene);
   expect_as_planned(area);
   EXPECT_THAT(area.passes, testing::IsSupersetOf({"depth-moments", "obscurance-area"}));
+  scene.methods.near = "screen-rays";
+  const Taken rays = render_one(scene);
+  expect_as_planned(rays);
+  EXPECT_THAT(rays.built, Contains("screen_rays"));
+  EXPECT_THAT(rays.built, Not(Contains(HasSubstr("obscurance"))));
   scene.methods.near = "obscurance-line";
   scene.methods.near_field.blur = 4;
   scene.methods.near_field.half_resolution = true;
