@@ -12,9 +12,11 @@
 #include "host/passes/obscurance_blur.hpp"
 #include "host/passes/obscurance_line.hpp"
 #include "host/passes/obscurance_point.hpp"
+#include "host/passes/screen_rays.hpp"
 #include "tests/reference/environment.hpp"
 #include "tests/reference/obscurance_area.hpp"
 #include "tests/reference/obscurance_blur.hpp"
+#include "tests/reference/screen_rays.hpp"
 #include "tests/support/environments.hpp"
 #include "tests/support/made_images.hpp"
 
@@ -46,7 +48,7 @@ StabilityCase image_case(const std::string& kernel, const std::string& name, Ima
 
 using ExactPixel = std::function<reference::Obscurance(int x, int y)>;
 
-/// One of the three ways to sample, and its double.
+/// One of the ways to sample, and its double.
 struct Sampling {
   std::string name;
   std::function<void(Device&, FragmentPlanes&, const ObscuranceView&, const NearField&, Buffer<float>&)> run;
@@ -84,6 +86,15 @@ const std::vector<Sampling>& samplings() {
            return reference::area_obscurance(*image, *pyramid, x, y, line_samples(5), near, near.radius,
                                              std::sqrt(3.0));
          };
+       }},
+      {"screen-rays",
+       [](Device& device, FragmentPlanes& planes, const ObscuranceView& view, const NearField& near,
+          Buffer<float>& out) { ScreenRaysPass(device, near, 5).run(planes, view, out); },
+       [](const Image& image, const NearField& near) -> ExactPixel {
+         return [=](int x, int y) {
+           const reference::ScreenRays rays = reference::screen_rays(*image, x, y, 5, near);
+           return reference::Obscurance{rays.value, 1, static_cast<double>(rays.doubtful)};
+         };
        }}};
   return all;
 }
@@ -116,6 +127,10 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
         }));
     StabilityCase& one = all.back();
     if (comparable) one.exact = exact_of(sampling, image, near);
+    if (sampling.name == "screen-rays") {
+      one.stated_error = 5e-6;
+      one.note = "angles within 4e-6 turn rays, and so how long they are behind things";
+    }
     return one;
   };
   NearField near;
@@ -142,8 +157,12 @@ void add_obscurance(const Sampling& sampling, std::vector<StabilityCase>& all) {
   add("orthographic", odd_view(width, height, 0), patchwork(7, 10, 1), near);
   NearField all_options = near;
   all_options.thickness = 1.5;
-  all_options.normals = "none";
-  add("thickness, without normals", odd_view(width, height, 0.9), patchwork(8, 12, 1), all_options);
+  if (sampling.name == "screen-rays") {
+    add("thickness", odd_view(width, height, 0.9), patchwork(8, 12, 1), all_options);
+  } else {
+    all_options.normals = "none";
+    add("thickness, without normals", odd_view(width, height, 0.9), patchwork(8, 12, 1), all_options);
+  }
   for (const double depth : {1e-4, 1e7}) {
     NearField scaled = near;
     scaled.radius = 0.1 * depth;

@@ -53,6 +53,7 @@ TEST(Stability, CoversEveryVisibilityMethod) {
                              "obscurance-line",
                              "obscurance-point",
                              "obscurance-area",
+                             "screen-rays",
                              "open-dome",
                              "combine",
                              "environment",

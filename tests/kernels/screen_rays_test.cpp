@@ -74,6 +74,10 @@ TEST(ScreenRays, ShortAndLongRaysAreTheReference) {
   for (const double length : {0.05, 2.5, 9.0}) expect_reference(image, 4, rays_of(length));
   expect_reference(image, 1, rays_of(1, 1e-3));
   expect_reference(image, 64, rays_of(0.3, 2));
+}
+
+TEST(ScreenRays, NarrowImagesAreTheReference) {
+  UNDERSTORY_NEEDS_DEVICE();
   for (const auto& [width, height] : {std::pair{1, 70}, {70, 1}, {3, 70}, {1, 1}})
     expect_reference(image_of(odd_view(width, height, 0.9), patchwork(3, 4, 0.5)), 5, rays_of(0.6));
 }
