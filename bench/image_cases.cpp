@@ -235,7 +235,9 @@ std::vector<KernelCase> image_cases() {
           image_case(
               "screen-rays", 2e-3,
               [](Device& device, Image image) {
-                const auto pass = std::make_shared<ScreenRaysPass>(device, near_field(), 16);
+                NearField options = near_field();
+                options.thickness = 0.012;
+                const auto pass = std::make_shared<ScreenRaysPass>(device, options, 16);
                 return [=] { pass->run(image->planes, image->view, image->visibility); };
               },
               closedness),

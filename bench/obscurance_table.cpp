@@ -2,6 +2,7 @@
 // plants, beside VTK's screen-space occlusion and traced truth. From the repository's root, UNDERSTORY_DATA set.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -140,8 +141,9 @@ void print_rays(ObscuranceScene& scene, const Plane& near_truth, const std::vect
     fmt::print("| {} | {:.2f} | {} | {:.4f} | {:+.4f} | {:.4f} | {:+.4f} | {:.1f} |\n", rays, reach, thickness,
                plain.rmse, plain.bias, blurred.rmse, blurred.bias, scene.cost({way}, options, 3).front());
   };
-  for (const int rays : {4, 8, 16, 32, 64}) print(rays, 0.05);
-  for (const double thickness : {0.025, 0.1}) print(16, thickness);
+  const double usual = std::min(0.05, 0.1 * reach);  // as frames have it
+  for (const int rays : {4, 8, 16, 32, 64}) print(rays, usual);
+  for (const double factor : {0.5, 2.0, 4.0}) print(16, factor * usual);
   fmt::print("\n");
 }
 

@@ -55,6 +55,12 @@ struct Sampling {
   ExactPixel (*exact)(const Image&, const NearField&);
 };
 
+/// Rays take surfaces to have some depth.
+NearField with_depth(NearField near) {
+  if (near.thickness == 0) near.thickness = 0.05 * near.radius;
+  return near;
+}
+
 const std::vector<Sampling>& samplings() {
   static const std::vector<Sampling> all = {
       {"obscurance-line",
@@ -89,10 +95,10 @@ const std::vector<Sampling>& samplings() {
        }},
       {"screen-rays",
        [](Device& device, FragmentPlanes& planes, const ObscuranceView& view, const NearField& near,
-          Buffer<float>& out) { ScreenRaysPass(device, near, 5).run(planes, view, out); },
+          Buffer<float>& out) { ScreenRaysPass(device, with_depth(near), 5).run(planes, view, out); },
        [](const Image& image, const NearField& near) -> ExactPixel {
          return [=](int x, int y) {
-           const reference::ScreenRays rays = reference::screen_rays(*image, x, y, 5, near);
+           const reference::ScreenRays rays = reference::screen_rays(*image, x, y, 5, with_depth(near));
            return reference::Obscurance{rays.value, 1, static_cast<double>(rays.doubtful)};
          };
        }}};

@@ -9,10 +9,10 @@
 
 /// What is farther behind a surface than this tells nothing of how dense things are around it, m.
 #define CLUTTER_REACH REAL(1.0)
-/// What a metre behind things blocks of a ray were all rays behind things, 1/m. Chosen, as CLUTTER_REACH and the usual
-/// thickness, by the error on meadow, ecosystem, real plants and black oak, traced 1 m and 3 m far, where it is flat
-/// between 2.5 and 4. What all of it errs, there and beside a path tracer, is in bench/obscurance.md.
-#define CLUTTER REAL(3.0)
+/// What a metre behind things blocks of a ray where all rays are behind things, 1/m. Chosen, as CLUTTER_REACH, by the
+/// error on meadow, ecosystem, real plants and black oak, traced 1 m and 3 m far, in a study that is not kept; what the
+/// method errs with it is in bench/obscurance.md.
+#define BLOCKED_PER_METRE REAL(3.0)
 
 /// Of rays up to where they are blocked; of one by itself shares of its length, of several together metres.
 typedef struct {
@@ -30,22 +30,23 @@ typedef struct {
 SHARED Passage passage_of(global const float* depth, Pixels at, Receiver to, truth drawn, ScreenRay ray,
                           const ObscuranceSetting* setting) {
   const real thickness = (real)(setting->thickness);
-  // Of a ray's length and of depth: what is less behind a surface is on it.
-  const real rounding = fma(to.depth, REAL(4e-6), (real)(5e-4f * setting->radius));
-  const real slant = REAL(0.5) * fabs(ray.end.z), end = PICK(drawn, ray.inside, REAL(0.0));
+  const real rounding = rounding_of(to, setting), end = PICK(drawn, ray.inside, REAL(0.0));
+  // A ray may have been on a surface anywhere in a step: half of what its depth changes by, on either side.
+  const real slant = REAL(0.5) * fabs(ray.end.z);
   Passage passage = {{REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(1.0)};
   SurfaceRun run = {REAL(0.0), REAL(-1e30)};
   real from = FIRST_STEP, share = share_at(ray, from), looked = from;
-  // Blocked rays go on to their end: to wait for what a step sees before the next begins takes a third longer.
+  // Nothing ends a ray early: steps that depend on no gather overlap, which takes two thirds of the time.
   for (truth on = from < end; ANY(on); on = from < end) {
     const real next = at_most(from + at_least(GROWTH * from, REAL(1.0)), end), step = next - from;
     const real place = fma(step, ray.jitter, from), next_share = share_at(ray, next);
     const SeenPixel seen = seen_pixel(depth, at, to, ray, place, setting);
     const real behind = fma(ray.end.z, share_at(ray, place), to.depth) - seen.depth;
-    const truth is_behind = (behind > fma(seen.width, ON_SURFACE, rounding)) & (seen.depth > REAL(0.0));
+    const truth is_behind = (behind > fma(seen.width, ON_SURFACE, rounding)) & (seen.width > REAL(0.0));
     run = next_of_run(run, is_behind, seen, place - looked);
-    const real passed = next_share - share, deep = at_least(run.width, thickness);
-    const truth stops = is_behind & (fma(-slant, passed, behind) < fma(seen.width, step - REAL(1.0), deep));
+    const real passed = next_share - share, deep = at_least(run.width, thickness) + rounding;
+    const truth stops =
+        is_behind & (fma(-slant, passed, behind) < fma(seen.width, at_least(step - REAL(1.0), REAL(0.0)), deep));
     passage.open = PICK(on & stops, REAL(0.0), passage.open);
     const real stretch = PICK(on, passed * passage.open, REAL(0.0)), hidden = PICK(is_behind, stretch, REAL(0.0));
     passage.along.behind += hidden;
@@ -81,7 +82,7 @@ SHARED real open_share_of_rays(global const float* depth, global const float* no
   }
   flag_samples(validity, item, ball, left, drawn, setting);
   // Open rays as one of their mean length behind things: over all of them the error is less than with each by itself.
-  const real density = CLUTTER * all.clutter / at_least(all.clutter + all.clear, REAL(1e-30));
+  const real density = BLOCKED_PER_METRE * all.clutter / at_least(all.clutter + all.clear, REAL(1e-30));
   const real dimmed = exp_minus(density * all.behind / at_least(open, REAL(1.0)));
   return as_visibility(open * (real)(1.0f / (float)(rays)) * dimmed);
 }

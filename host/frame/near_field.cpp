@@ -25,13 +25,13 @@ constexpr double reach_of_radius = 0.2;
 /// endless thickness up to twice as much (bench/obscurance.md).
 constexpr double usual_thickness = 5;  // radii
 
-/// For rays, which take surfaces to be at least so deep: of leaves and grass, and less for short rays (likewise).
+/// For rays, which take surfaces to be at least so deep: less errs towards light, more towards dark (likewise).
 constexpr double usual_ray_thickness = 0.05;  // m
 constexpr double usual_ray_share = 0.1;       // of the ray
 
 NearField with_thickness(const Methods& methods) {
   NearField near_field = methods.near_field;
-  if (near_field.thickness > 0) return near_field;
+  if (near_field.thickness != 0) return near_field;
   near_field.thickness = methods.near == "screen-rays"
                              ? std::min(usual_ray_thickness, usual_ray_share * near_field.radius)
                              : usual_thickness * near_field.radius;

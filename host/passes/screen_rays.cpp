@@ -1,15 +1,24 @@
 #include "host/passes/screen_rays.hpp"
 
+#include <cmath>
+#include <string>
+
 #include "sim/error.hpp"
 
 namespace understory {
 namespace {
 
+void require(bool holds, const std::string& what) {
+  if (!holds) throw Error(ErrorKind::invalid_input, "screen-rays: " + what);
+}
+
 std::uint32_t ray_count(const NearField& near_field, int rays) {
-  if (rays < 1 || rays > 64)
-    throw Error(ErrorKind::invalid_input, "screen-rays: " + std::to_string(rays) + " rays; allowed: 1 to 64");
-  if (near_field.normals == "none")
-    throw Error(ErrorKind::invalid_input, "screen-rays: normals none; allowed: buffer, depth");
+  require(rays >= 1 && rays <= 64, std::to_string(rays) + " rays; allowed: 1 to 64");
+  require(near_field.normals != "none", "normals none; allowed: buffer, depth");
+  require(near_field.falloff == "constant", "falloff " + near_field.falloff + "; allowed: constant");
+  require(near_field.second_radius == 0, "a second radius; allowed: one");
+  require(std::isfinite(near_field.thickness) && near_field.thickness > 0,
+          "thickness " + std::to_string(near_field.thickness) + "; allowed: a number above 0");
   return static_cast<std::uint32_t>(rays);
 }
 

@@ -8,8 +8,9 @@ namespace understory {
 
 class ScreenRaysPass {
  public:
-  /// `near_field`: radius, m, is how long the rays are, thickness, m, how deep surfaces are at least; its normals must
-  /// not be `none`. `rays`: of each fragment, 1 to 64. Throws Error(invalid_input) naming what is wrong.
+  /// `near_field`: radius, m, is how long the rays are, thickness, m, how deep surfaces are at least; above 0. Its
+  /// normals must not be `none`, its falloff `constant`, its radius the only one. `rays`: of each fragment, 1 to 64.
+  /// Throws Error(invalid_input) naming what is wrong.
   ScreenRaysPass(Device& device, const NearField& near_field, int rays, int lanes = 0);
 
   /// Visibility of rays of limited length, [0, 1] and 1 on the background, of width x height fragments in rows. Adds

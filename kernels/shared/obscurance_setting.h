@@ -17,7 +17,7 @@ typedef struct {
   record_int width, height;             // pixels of the depth plane
   record_int first_x, first_y;          // pixels to add for the pattern of rotations, [0, 3]
   float radius, second_radius;          // m; the second is read with -DRADII only
-  float thickness;                      // m, the mean; read with -DTHICKNESS only
+  float thickness;                      // m, the mean, read with -DTHICKNESS only; of rays: the least
 } ObscuranceSetting;                    // 92 bytes
 
 /// A line or point of a sample set, ready for summing.

@@ -22,12 +22,12 @@ typedef struct {
   real pixels;          // such steps from the fragment to the end
   real inside;          // of them, those in the image
   real widening;        // how large a metre is at the fragment, over at the end
-  real jitter;          // where within its steps it looks, [0, 1)
+  real jitter;          // where within its steps it looks, [0, 1]
   real turning;         // how much the fragment's plane turns away from what sees it, as `facing`, in a step
   real half_rise;       // of that plane over half a pixel, against both axes of the image
 } ScreenRay;
 
-/// Of a share of 2^32 that whole arithmetic went round, [-0.5, 0.5): all widths and the reference have the same.
+/// Of a share of 2^32 that whole arithmetic went round, [-0.5, 0.5]: all widths and the reference have the same.
 SHARED real part_of_turn(bits share) { return TO_REAL(AS_WHOLE(share)) * REAL(2.3283064365386963e-10); }
 
 /// a, b and c along two axes square to the normal, and along it (Duff et al. 2017, "Building an Orthonormal Basis,
@@ -153,6 +153,11 @@ SHARED CameraVector pixel_point(Receiver to, real x, real y, real depth, const O
   return point;
 }
 
+/// Of a ray's length and of depth, m: what is less behind a surface is on it.
+SHARED real rounding_of(Receiver to, const ObscuranceSetting* setting) {
+  return fma(fabs(to.depth), REAL(4e-6), (real)(5e-4f * setting->radius));
+}
+
 /// Of rays that leave the image: whether they end behind the plane of the last pixel that they cross. What is wide goes
 /// on beyond the border.
 SHARED truth ends_behind(global const float* depth, global const float* normal_x, global const float* normal_y,
@@ -166,7 +171,9 @@ SHARED truth ends_behind(global const float* depth, global const float* normal_x
                                              GATHER(real, normal_z, last.index, ), setting);
   const real height = fma(here.x + ray.end.x - border.x, normal.x,
                           fma(here.y + ray.end.y - border.y, normal.y, (here.z + ray.end.z - border.z) * normal.z));
-  return (height < REAL(0.0)) & (border.z < REAL(1e18));  // not of the background, whatever its normal
+  // Background has no plane, whatever its normal, nor has what is behind the camera.
+  const real rounding = rounding_of(to, setting), width = pixel_width(to, border.z, setting);
+  return (height < -rounding) & (border.z < REAL(1e18)) & (width > REAL(0.0));
 }
 
 #endif

@@ -50,7 +50,8 @@ void expect_reference(const reference::DepthImage& image, int rays, const NearFi
       ++drawn;
       difference += error;
       sure += exact.doubtful == 0;
-      ASSERT_LE(error, 2e-4 + exact.doubtful * (1 + 6 * near.radius) / rays) << rays << " at " << x << ", " << y;
+      ASSERT_LE(error, 2e-4 + exact.doubtful * (1 + 6 * std::min(near.radius, 1.0)) / rays)
+          << rays << " at " << x << ", " << y;
       if (exact.doubtful == 0) {
         EXPECT_EQ((shaded.validity[i] & validity::left_image) != 0, exact.left) << x << ", " << y;
       }
@@ -140,11 +141,11 @@ TEST(ScreenRays, BesideAWallIsTheClosedForm) {
 }
 
 /// A board some pixels wide, a metre in front of a wall, seen by an orthographic camera; 20 pixels a metre.
-double mean_beside_board(Device& device, int width, double thickness) {
+double mean_beside_board(Device& device, int width, double thickness, double camera = 0) {
   ObscuranceView view = odd_view(160, 64, 0);
   view.centre_x = 80;
   const reference::DepthImage image = image_of(view, [&](const reference::PixelRay& ray) {
-    return SurfacePoint{std::abs(ray.origin.x) * 40 < width ? 8.0 : 9.0, {0, 0, -1}};
+    return SurfacePoint{std::abs(ray.origin.x) * 40 < width ? 8 - camera : 9 - camera, {0, 0, -1}};
   });
   const Shaded shaded = shade_once(device, image, 16, rays_of(2, thickness));
   double sum = 0;
@@ -168,6 +169,24 @@ TEST(ScreenRays, PassBehindWhatIsThinAndNotBehindWhatIsWide) {
     last = open;
   }
   EXPECT_LT(last, post - 0.1);
+  EXPECT_NEAR(mean_beside_board(device, 60, 0.05, 20), board, 1e-3) << "an orthographic camera within the scene";
+}
+
+TEST(ScreenRays, SurfacesAreAsDeepAsSaidHoweverLongTheRays) {
+  UNDERSTORY_NEEDS_DEVICE();
+  Device device;
+  const ObscuranceView view = odd_view(96, 128, 0.5);
+  const reference::DepthImage image = corner(view);
+  // From the corner half of all rays meet the other wall; up to lengths that are rounded by as much as walls are thick.
+  for (const double length : {0.5, 5.0, 100.0}) {
+    const Shaded shaded = shade_once(device, image, 16, rays_of(length, std::min(0.05, 0.1 * length)));
+    double mean = 0;
+    for (int x = 8; x < 88; ++x) {
+      const auto i = static_cast<std::size_t>((view.height / 2 - 1) * view.width + x);
+      mean += static_cast<double>(shaded.visibility[i]) / 80;
+    }
+    EXPECT_NEAR(mean, 0.5, 0.05) << length;
+  }
 }
 
 TEST(ScreenRays, FloorsAndWallsGoOnBeyondTheImage) {
@@ -247,6 +266,13 @@ TEST(ScreenRays, RefusesWhatItCannotDo) {
   };
   EXPECT_THAT(refused(rays_of(1), 0), testing::HasSubstr("allowed: 1 to 64"));
   EXPECT_THAT(refused(rays_of(1), 65), testing::HasSubstr("allowed: 1 to 64"));
+  for (const double thickness : {0.0, -1.0, double{NAN}})
+    EXPECT_THAT(refused(rays_of(1, thickness), 4), testing::HasSubstr("a number above 0"));
+  NearField two = rays_of(1), quadratic = rays_of(1);
+  two.second_radius = 2;
+  quadratic.falloff = "quadratic";
+  EXPECT_THAT(refused(two, 4), testing::HasSubstr("allowed: one"));
+  EXPECT_THAT(refused(quadratic, 4), testing::HasSubstr("allowed: constant"));
   EXPECT_THAT(refused(none, 4), testing::HasSubstr("allowed: buffer, depth"));
 }
 

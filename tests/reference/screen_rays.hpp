@@ -72,6 +72,7 @@ class ScreenRayMarch {
     if (view_.perspective) return {glm::dvec3(0), across + glm::dvec3(0, 0, 1)};
     return {across, glm::dvec3(0, 0, 1)};
   }
+  double rounding() const { return 4e-6 * std::abs(centre_.z) + 5e-4 * near_.radius; }
   double width_at(double depth) const { return (view_.perspective ? depth : 1) / view_.focal; }
 
   /// Share of 2^32 that whole numbers went round, in [-1/2, 1/2).
@@ -144,7 +145,7 @@ class ScreenRayMarch {
   void doubt_if_close(double a, double b) { doubt_ |= std::abs(a - b) < 3e-5 * centre_.z; }
 
   bool march(const Ray& ray, Stretches& stretches) {
-    const double on_surface = 4e-6 * centre_.z + 5e-4 * near_.radius;
+    const double on_surface = rounding();
     const double slant = 0.5 * std::abs(ray.end.z - centre_.z);
     double run_width = 0, looked = 0.5;
     std::optional<double> run_depth;
@@ -160,8 +161,8 @@ class ScreenRayMarch {
         if (run_depth) doubt_if_close(std::abs(depth - *run_depth), 3 * width);
         const bool joined = run_depth && std::abs(depth - *run_depth) <= 3 * width;
         run_width = joined ? run_width + width * (place - looked) : width;
-        if (behind > 0.02 * width + on_surface && depth > 0) {
-          const double deep = std::max(run_width, near_.thickness) + width * (step - 1);
+        if (behind > 0.02 * width + on_surface && width > 0) {
+          const double deep = std::max(run_width, near_.thickness) + on_surface + width * std::max(step - 1, 0.0);
           doubt_if_close(behind - slant * passed, deep);
           if (behind - slant * passed < deep) return true;
           doubt_if_close(behind, 1);
@@ -183,8 +184,8 @@ class ScreenRayMarch {
     if (!std::isfinite(last.depth)) return false;
     const glm::dvec3 border = pixel_ray(view_, last.x, last.y).at(last.depth);
     const double height = glm::dot(ray.end - border, image_.normal_at(last.x, last.y));
-    doubt_if_close(height, 0);
-    return height < 0;
+    doubt_if_close(height, -rounding());
+    return height < -rounding() && width_at(last.depth) > 0;
   }
 
   const DepthImage& image_;
